@@ -17,14 +17,14 @@ endfunction()
 # nothing that counts.
 set(mavloom_cold_flags $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-O1>)
 
-# -Wrestrict: GCC 12 is wrong about std::string (GCC bug 105329). In a unity build, names of one file shadow those of
-# another, and anonymous namespaces seem to lie in a header; the presets `dev` and `tidy` compile each file alone.
+# -Wrestrict: GCC 12 is wrong about std::string (GCC bug 105329). In a unity build, GCC takes anonymous namespaces for
+# those of a header, and finds more names shadowed than Clang does.
 add_library(mavloom_warnings INTERFACE)
-set(mavloom_per_file -Wshadow)
+set(mavloom_shadow -Wshadow)
 if(CMAKE_UNITY_BUILD)
-  set(mavloom_per_file $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage>)
+  set(mavloom_shadow $<IF:$<COMPILE_LANG_AND_ID:CXX,GNU>,-Wno-subobject-linkage,-Wshadow>)
 endif()
-target_compile_options(mavloom_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconversion ${mavloom_per_file}
+target_compile_options(mavloom_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconversion ${mavloom_shadow}
                        -Wno-sign-conversion -Wcast-align
                        $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual>
                        $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<BOOL:${MAVLOOM_WERROR}>:-Werror>)
@@ -66,7 +66,12 @@ function(mavloom_module name)
     target_compile_options(${target}_cold PRIVATE ${mavloom_cold_flags})
     target_include_directories(${target}_cold PRIVATE "${PROJECT_SOURCE_DIR}/include" "${PROJECT_SOURCE_DIR}/src")
     target_link_libraries(${target}_cold PRIVATE mavloom_warnings ${arg_DEPENDS} ${arg_LINK} ${arg_PRIVATE_LINK})
-    mavloom_precompile(${target}_cold ${target}_cold)
+    get_property(first_cold GLOBAL PROPERTY MAVLOOM_FIRST_COLD)
+    if(NOT first_cold)
+      set(first_cold ${target}_cold)
+      set_property(GLOBAL PROPERTY MAVLOOM_FIRST_COLD ${first_cold})
+    endif()
+    mavloom_precompile(${target}_cold ${first_cold})
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_cold>)
   endif()
   if(MAVLOOM_INSTALL)

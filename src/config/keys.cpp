@@ -99,7 +99,7 @@ constexpr std::array<std::string_view, 2> components{"system", "drop"};
 constexpr std::array<std::string_view, 2> targets{"drop", "flood"};
 constexpr std::array<std::string_view, 4> levels{"debug", "info", "warning", "error"};
 
-constexpr std::array keys{
+constexpr std::array all_keys{
     ConfigKey{"router", "dedup_ms", "0",
               [](Config& c, std::string_view t) {
                   return endpoint::put(endpoint::parse_integer(t, 0, 60'000), c.router.dedup_ms);
@@ -132,13 +132,14 @@ constexpr std::array keys{
 };
 
 constexpr bool is_router_key(const ConfigKey& key) { return key.section == "router"; }
-static_assert(std::ranges::equal(keys | std::views::filter(is_router_key), endpoint::router_keys, {}, &ConfigKey::name));
+static_assert(std::ranges::equal(all_keys | std::views::filter(is_router_key), endpoint::router_keys, {},
+                                 &ConfigKey::name));
 
 constexpr std::array<std::string_view, 5> sections{"router", "ring", "record", "log", "web"};
 
 }  // namespace
 
-std::span<const ConfigKey> config_keys() noexcept { return keys; }
+std::span<const ConfigKey> config_keys() noexcept { return all_keys; }
 std::span<const std::string_view> config_sections() noexcept { return sections; }
 
 }  // namespace mavloom::config::detail

@@ -14,8 +14,8 @@ namespace mavloom::endpoint {
 
 namespace {
 
-constexpr std::array<std::string_view, 9> names{"udpin",  "udpout", "udpbcast", "udpmcast", "tcpin",
-                                                "tcpout", "serial", "shm",      "tlog"};
+constexpr std::array<std::string_view, 9> spellings{"udpin",  "udpout", "udpbcast", "udpmcast", "tcpin",
+                                                    "tcpout", "serial", "shm",      "tlog"};
 
 // Schemes of other programs, and what to use instead. `udp:` is ambiguous: it listens in pymavlink, but sends in
 // other programs.
@@ -79,8 +79,8 @@ std::string advice_for(std::string_view advice, std::string_view rest) {
 tl::unexpected<SetupError> unknown_scheme(std::string_view scheme, std::string_view rest) {
     for (const Foreign& foreign : foreign_schemes)
         if (foreign.scheme == scheme) return usage(fmt::format("'{}' {}", scheme, advice_for(foreign.advice, rest)));
-    auto hint = did_you_mean(scheme, names);
-    if (hint.empty()) hint = fmt::format("; there are {}", fmt::join(names, ", "));
+    auto hint = did_you_mean(scheme, spellings);
+    if (hint.empty()) hint = fmt::format("; there are {}", fmt::join(spellings, ", "));
     return usage(fmt::format("there is no scheme {}{}", in_quotes(scheme), hint));
 }
 
@@ -111,7 +111,7 @@ tl::unexpected<SetupError> no_scheme(std::string_view text) {
     const auto colon = text.find(':');
     if (colon != std::string_view::npos && colon != 0) {
         const auto prefix = text.substr(0, colon);
-        if (std::find(names.begin(), names.end(), prefix) != names.end())
+        if (std::find(spellings.begin(), spellings.end(), prefix) != spellings.end())
             return usage(fmt::format("the slashes are missing; type {}://{}", prefix, shown(text.substr(colon + 1))));
         return unknown_scheme(prefix, text.substr(colon + 1));
     }
@@ -125,10 +125,10 @@ tl::unexpected<SetupError> no_scheme(std::string_view text) {
 SetupResult<Split> split_url(Split result, std::string_view text) {
     const auto slashes = text.find("://");
     const auto scheme = text.substr(0, slashes);
-    const auto found = std::ranges::find(names, scheme);
+    const auto found = std::ranges::find(spellings, scheme);
     result.rest.remove_prefix(slashes + 3);
-    if (found == names.end()) return unknown_scheme(scheme, result.rest);
-    result.scheme = static_cast<Scheme>(found - names.begin());
+    if (found == spellings.end()) return unknown_scheme(scheme, result.rest);
+    result.scheme = static_cast<Scheme>(found - spellings.begin());
     return result;
 }
 
@@ -225,9 +225,9 @@ bool sends_first(Scheme scheme) noexcept {
            scheme == Scheme::tcpout || scheme == Scheme::serial;
 }
 
-std::string_view scheme_name(Scheme scheme) noexcept { return names[static_cast<std::size_t>(scheme)]; }
+std::string_view scheme_name(Scheme scheme) noexcept { return spellings[static_cast<std::size_t>(scheme)]; }
 
-std::span<const std::string_view> scheme_names() noexcept { return names; }
+std::span<const std::string_view> scheme_names() noexcept { return spellings; }
 
 std::optional<std::string_view> query_of(std::string_view endpoint) {
     const auto question = endpoint.find('?');

@@ -26,9 +26,9 @@ public:
     void set_group_orders(std::span<const GroupOrder> orders);
     [[nodiscard]] std::uint64_t mark_of(const wire::FrameView& frame) const noexcept;
     [[nodiscard]] Decision route(const wire::FrameView& frame, std::uint64_t hash, const wire::MessageInfo* info,
-                                 LinkId ingress, MonoTime now) noexcept;
+                                 LinkId ingress, MonoTime now, bool is_repeated) noexcept;
     Decision explain(const wire::FrameView& frame, const wire::MessageInfo* info, LinkId ingress, MonoTime now,
-                     std::vector<Explanation>& why);
+                     std::vector<Explanation>& why, bool is_repeated);
     void note_reboot(LinkId link, Source source, MonoTime now) noexcept;
     void note_sent(const wire::FrameView& frame, LinkId link, MonoTime now) noexcept;
     [[nodiscard]] std::vector<RouteInfo> routes(MonoTime now) const;
@@ -124,6 +124,7 @@ private:
         Slot slot;
         Link& link;
         MonoTime now;
+        bool is_repeated = false;  // a signed frame that another endpoint has already delivered
         bool is_remembered = false;
         bool is_directed = false;  // goes to the links of its target
         bool is_copy = false;      // copy of a frame that arrived earlier on another link
@@ -155,7 +156,6 @@ private:
     [[nodiscard]] const Route* present_route(Slot slot, const Passage& p) const noexcept;
     // Whether an earlier copy of the frame may be held against this one.
     [[nodiscard]] bool counts_as_heard(const Passage& p) noexcept;
-    [[nodiscard]] bool may_teach_by_copy(const Passage& p) const noexcept;
     void count_beats(const Passage& p) noexcept;
     // Whether the link already delivered this HEARTBEAT within doubled_within.
     [[nodiscard]] bool is_doubled(const Passage& p) noexcept;

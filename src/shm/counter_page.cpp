@@ -21,7 +21,7 @@ static_assert(sizeof(Counter) == sizeof(SharedWords::Word64));
 
 namespace {
 
-constexpr std::string_view suffix = ".stat";
+constexpr std::string_view page_suffix = ".stat";
 constexpr std::size_t owner_byte = 0;
 constexpr int most_reads = 100;
 
@@ -156,7 +156,7 @@ SetupResult<Segment> create_page(const std::string& path, const CounterPageOptio
 SetupResult<CounterPage> CounterPage::create(std::string_view name, const CounterPageOptions& options) {
     if (auto good = check_name(name); !good) return tl::unexpected(std::move(good.error()));
     if (auto good = check_options(options); !good) return tl::unexpected(std::move(good.error()));
-    const std::string path = path_of(name, suffix);
+    const std::string path = path_of(name, page_suffix);
     std::string set_aside;
     for (int attempt = 0; attempt < most_reads; ++attempt) {
         auto created = create_page(path, options);
@@ -254,7 +254,7 @@ void CounterPage::forget_link(LinkId link) {
 }
 
 void remove_left_page(std::string_view ring) {
-    auto page = Segment::open(path_of(ring, suffix), Segment::Access::read_write, 0, check_owner);
+    auto page = Segment::open(path_of(ring, page_suffix), Segment::Access::read_write, 0, check_owner);
     if (page && page->try_lock(owner_byte)) static_cast<void>(page->unlink());
 }
 
@@ -265,7 +265,7 @@ SetupResult<CounterSnapshot> read_counters(std::string_view name, const Trust& t
     const auto check = [&](const Segment& file) {
         return check_trusted(file, fmt::format("the counter page of {}", name), trust);
     };
-    const auto segment = Segment::open(path_of(name, suffix), Segment::Access::read_only, page_header_bytes, check);
+    const auto segment = Segment::open(path_of(name, page_suffix), Segment::Access::read_only, page_header_bytes, check);
     if (!segment) return tl::unexpected(segment.error());
     const auto header = header_of(*segment);
     if (!header) return tl::unexpected(header.error());

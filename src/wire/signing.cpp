@@ -159,11 +159,15 @@ bool Verifier::forget_oldest(SigningTime before) noexcept {
     return true;
 }
 
+bool Verifier::is_of_key(const FrameView& frame) const noexcept {
+    if (!frame.is_signed()) return false;
+    const auto hash = hash_of(key_, frame.bytes().first(frame.size() - hash_length));
+    return sodium_memcmp(hash.data(), frame.signature().data() + 1 + time_length, hash.size()) == 0;
+}
+
 Verifier::Verdict Verifier::verify(const FrameView& frame, SigningTime now) noexcept {
     if (!frame.is_signed()) return Verdict::unsigned_frame;
-    const auto signature = frame.signature();
-    const auto hash = hash_of(key_, frame.bytes().first(frame.size() - hash_length));
-    if (sodium_memcmp(hash.data(), signature.data() + 1 + time_length, hash.size()) != 0) return Verdict::bad_signature;
+    if (!is_of_key(frame)) return Verdict::bad_signature;
 
     const auto [key, time] = stream_of(frame);
     const auto it = std::ranges::lower_bound(streams_, key, {}, &Stream::key);

@@ -17,10 +17,11 @@
 
 namespace mavloom::app {
 
+using Json = nlohmann::ordered_json;
+
 namespace {
 
 using namespace std::chrono_literals;
-using Json = nlohmann::ordered_json;
 
 constexpr auto patience = 5s;
 

@@ -208,8 +208,9 @@ public:
     [[nodiscard]] std::uint64_t mark_of(const wire::FrameView& frame) const noexcept;
     // Decides where the frame goes and learns its route. `info` is null for a message id without definition. `now`
     // should not go backwards: an earlier time counts as the latest one seen. Takes at most some tens of nanoseconds.
+    // `is_repeated`: somebody without the key may have sent the frame, which is signed. So it teaches no new route.
     [[nodiscard]] Decision route(const wire::FrameView& frame, std::uint64_t mark, const wire::MessageInfo* info,
-                                 LinkId ingress, MonoTime now) noexcept;
+                                 LinkId ingress, MonoTime now, bool is_repeated = false) noexcept;
     [[nodiscard]] Decision route(const wire::FrameView& frame, const wire::MessageInfo* info, LinkId ingress,
                                  MonoTime now) noexcept {
         return route(frame, mark_of(frame), info, ingress, now);
@@ -218,7 +219,7 @@ public:
     [[nodiscard]] Decision route(const wire::FrameView& frame, LinkId ingress, MonoTime now) noexcept;
     // Like `route`, but also fills `why` with the reason for every link, sorted by link id. Allocates.
     Decision explain(const wire::FrameView& frame, const wire::MessageInfo* info, LinkId ingress, MonoTime now,
-                     std::vector<Explanation>& why);
+                     std::vector<Explanation>& why, bool is_repeated = false);
 
     // Call this when the program itself sent the frame to the link. If the frame comes back, it is an echo.
     void note_sent(const wire::FrameView& frame, LinkId link, MonoTime now) noexcept;

@@ -112,6 +112,9 @@ public:
     // Changes state only if it returns `good`. A frame forged without the key has no effect, whatever timestamp it has.
     [[nodiscard]] Verdict verify(const FrameView& frame, SigningTime now) noexcept;
 
+    // True if the frame is signed with the key, whatever its timestamp.
+    [[nodiscard]] bool is_of_key(const FrameView& frame) const noexcept;
+
     [[nodiscard]] SigningTime newest() const noexcept { return newest_; }
 
     // The stream and the timestamp of a signed frame. The signature is not verified.

@@ -68,7 +68,9 @@ void Core::remove_link(Link& link, std::string_view why) {
 
 void Core::on_frame(Link& link, const wire::ParseEvent& event, WallTime time) {
     LinkCounters& counters = link.counters;
-    if (link.signature != nullptr && !link.signature->accepts(event.frame, time)) [[unlikely]] {
+    if (link.signature == nullptr) {
+        key_states.note_heard(event.frame);
+    } else if (!link.signature->accepts(event.frame, time)) [[unlikely]] {
         counters.bad_signature.add();
         return;
     }
@@ -78,7 +80,8 @@ void Core::on_frame(Link& link, const wire::ParseEvent& event, WallTime time) {
         counters.unknown_ids.add();
     const auto* const update = owner_counts_loss_ ? &wire::no_loss : &count_loss(link, event.frame, event.info);
     ++frames_this_turn_;
-    events.handler()->on_frame({event.frame, event.info, link.id, link.endpoint, time, update});
+    const bool is_repeated = link.signature != nullptr && link.signature->is_repeated();
+    events.handler()->on_frame({event.frame, event.info, link.id, link.endpoint, time, update, 0, is_repeated});
 }
 
 void Core::on_bad_bytes(Link& link, const wire::ParseEvent& event) {

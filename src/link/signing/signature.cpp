@@ -40,6 +40,7 @@ SetupResult<Signature::OpenKey> Signature::open(const std::string& path, std::ve
 // the shared state only rejects frames that are too late.
 void Signature::verify_with(const OpenKey& with, bool in_group) {
     verifying_key_ = states_.shared_key(with.key);
+    verifying_key_->heard.start();
     if (!in_group) return;
     own_.emplace(with.key);
     for (const auto& stream : verifying_key_->verifier.streams()) own_->restore(stream);
@@ -63,10 +64,17 @@ bool Signature::is_own(const wire::FrameView& frame) const noexcept {
 }
 
 bool Signature::takes(const wire::FrameView& frame, wire::SigningTime now) {
-    using enum wire::Verifier::Verdict;
     if (is_own(frame)) return false;
-    if (!own_) return verifying_key_->verifier.verify(frame, now) == good;
-    if (own_->verify(frame, now) != good) return false;
+    const bool is_good = own_ ? takes_in_group(frame, now)
+                              : verifying_key_->verifier.verify(frame, now) == wire::Verifier::Verdict::good;
+    if (!is_good) return false;
+    is_repeated_ = verifying_key_->heard.has(frame);
+    if (!is_repeated_) verifying_key_->heard.note(frame);
+    return true;
+}
+
+bool Signature::takes_in_group(const wire::FrameView& frame, wire::SigningTime now) {
+    if (own_->verify(frame, now) != wire::Verifier::Verdict::good) return false;
     const auto stream = wire::Verifier::stream_of(frame);
     const auto newest = verifying_key_->verifier.last(stream.key);
     verifying_key_->verifier.restore(stream);
@@ -102,16 +110,20 @@ void Signature::keep_times() const {
 }
 
 bool Signature::accepts(const wire::FrameView& frame, WallTime now) noexcept {
-    if (!verifying_key_) return true;
+    if (!verifying_key_) {
+        states_.note_heard(frame);
+        return true;
+    }
     if (accepted_ == frame.bytes().data()) {
         accepted_ = nullptr;
+        is_repeated_ = false;
         return true;
     }
     return takes(frame, wire::SigningTime::from(now));
 }
 
 bool Signature::accepts_early(const wire::FrameView& frame, WallTime now) noexcept {
-    if (!accepts(frame, now)) return false;
+    if (!accepts(frame, now) || is_repeated_) return false;
     accepted_ = frame.bytes().data();
     return true;
 }

@@ -36,8 +36,11 @@ public:
     [[nodiscard]] bool verifies() const noexcept { return verifying_key_ != nullptr; }
     [[nodiscard]] bool signs() const noexcept { return signer_.has_value(); }
     [[nodiscard]] bool accepts(const wire::FrameView& frame, WallTime now) noexcept;
+    // True if another endpoint had already heard the last accepted frame. Then the sender need not have the key: it may
+    // have read the frame elsewhere.
+    [[nodiscard]] bool is_repeated() const noexcept { return is_repeated_; }
     // Like `accepts`, for a frame whose bytes the link's parser will find again. `accepts` then does not treat that
-    // second appearance as a replay.
+    // second appearance as a replay. Does not accept repeated frames.
     [[nodiscard]] bool accepts_early(const wire::FrameView& frame, WallTime now) noexcept;
     // Call it before the buffer with these bytes is reused.
     void forget_accepted() noexcept { accepted_ = nullptr; }
@@ -58,6 +61,7 @@ private:
     [[nodiscard]] SetupResult<void> sign_with(OpenKey with, std::uint8_t link_id);
     [[nodiscard]] bool is_own(const wire::FrameView& frame) const noexcept;
     [[nodiscard]] bool takes(const wire::FrameView& frame, wire::SigningTime now);
+    [[nodiscard]] bool takes_in_group(const wire::FrameView& frame, wire::SigningTime now);
 
     KeyStates& states_;
     std::optional<OpenKey> verify_with_, sign_with_;
@@ -66,6 +70,7 @@ private:
     std::optional<wire::Verifier> own_;         // in a group, the endpoint's own verifier
     std::optional<wire::Signer> signer_;
     std::optional<std::uint8_t> signs_as_;  // the link id
+    bool is_repeated_ = false;
     // Start of the frame that `accepts_early` has already verified.
     const std::uint8_t* accepted_ = nullptr;
     std::array<std::uint8_t, wire::max_frame_length> buffer_{};

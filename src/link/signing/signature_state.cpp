@@ -232,13 +232,21 @@ std::shared_ptr<SharedKey> KeyStates::shared_key(const wire::SigningKey& key) {
     auto& known = shared_keys_[key.fingerprint()];
     auto shared = known.lock();
     if (shared) return shared;
-    known = shared = std::make_shared<SharedKey>(SharedKey{wire::Verifier(key), {}, {}});
+    known = shared = std::make_shared<SharedKey>(SharedKey{wire::Verifier(key), {}, {}, {}});
     for (const auto& file : files_) {
         if (file->state.key != key.fingerprint()) continue;
         for (const auto& stream : file->state.heard) shared->verifier.restore(stream);
         shared->own.treat_as_own_until(signed_until(file->state, wire::SigningTime::from(wall_now())));
     }
     return shared;
+}
+
+void KeyStates::note_heard(const wire::FrameView& frame) noexcept {
+    if (!frame.is_signed()) return;
+    for (const auto& [fingerprint, known] : shared_keys_) {
+        const auto shared = known.lock();
+        if (shared && shared->verifier.is_of_key(frame)) shared->heard.note(frame);
+    }
 }
 
 SetupResult<void> KeyStates::begin_signing(KeyFile& file) {

@@ -16,9 +16,10 @@ bool UdpPeers::close(LinkId link) {
     return true;
 }
 
-// Returns true if the datagram proves that its sender is a MAVLink peer. With verify=, the proof is a good signature.
-// Without it, the proof is a good checksum of a defined message. Wrongly signed frames count in the endpoint's `gone`
-// sums. Looks only at the beginning, because anybody may send large datagrams of junk.
+// Returns true if the datagram proves that its sender is a MAVLink peer. With verify=, the proof is a good signature on
+// a frame that no endpoint has heard before. Without it, the proof is a good checksum of a defined message. Wrongly
+// signed frames count in the endpoint's `gone` sums. Looks only at the beginning, because anybody may send large
+// datagrams of junk.
 bool UdpPeers::is_from_a_peer(const net::Datagram& datagram) {
     Signature* const signature = endpoint_.signature.get();
     const bool verifies = signature != nullptr && signature->verifies();
@@ -29,7 +30,7 @@ bool UdpPeers::is_from_a_peer(const net::Datagram& datagram) {
     stranger_.parse(beginning, [&](const wire::ParseEvent& event) {
         if (found || event.kind != wire::ParseEvent::Kind::frame) return;
         found = verifies ? signature->accepts_early(event.frame, receive_time(datagram)) : event.info != nullptr;
-        if (verifies && !found) ++refused;
+        if (verifies && !found && !signature->is_repeated()) ++refused;
     });
     if (!found) endpoint_.counters.gone.bad_signature.add(refused);
     return found;

@@ -34,9 +34,9 @@ struct MetadataFiles {
         };
         const std::array list{listed(MetadataType::parameter, 1), listed(MetadataType::events, 2),
                               listed(MetadataType::actuators, 3)};
-        const std::string general = general_document(list);
-        general_crc = wire::crc32(0, bytes_of(general));
-        files[0] = compress_xz(general);
+        const std::string general_text = general_document(list);
+        general_crc = wire::crc32(0, bytes_of(general_text));
+        files[0] = compress_xz(general_text);
     }
 
     std::array<std::vector<std::uint8_t>, paths.size()> files;  // as `paths`

@@ -128,9 +128,9 @@ std::size_t LogImage::read(std::uint32_t offset, ByteSpan out) const noexcept {
             write_record(in_records / record_size(), record);
             rest = ByteView(record).first(record_size()).subspan(in_records % record_size());
         }
-        const std::size_t piece = std::min(rest.size(), length - done);
-        std::memcpy(out.data() + done, rest.data(), piece);
-        done += piece;
+        const std::size_t part = std::min(rest.size(), length - done);
+        std::memcpy(out.data() + done, rest.data(), part);
+        done += part;
     }
     return length;
 }

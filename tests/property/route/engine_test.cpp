@@ -154,7 +154,7 @@ private:
 
     void again(std::uint32_t link, const Step& s) {
         const Bytes frame = frames_[frames_.size() - 1 - s[2] % std::min<std::size_t>(frames_.size(), 3)];
-        pass(link, frame);
+        pass(link, frame, s[3] % 2 == 0);
     }
     void remove(std::uint32_t link) {
         routing_.remove_link(LinkId{link});
@@ -174,13 +174,13 @@ private:
         frames_.push_back(test::make_frame("HEARTBEAT", {1, 1}, {{"custom_mode", ++beats_}}));
         pass(link, frames_.back());
     }
-    void pass(std::uint32_t link, const Bytes& bytes) {
+    void pass(std::uint32_t link, const Bytes& bytes, bool is_repeated = false) {
         const auto frame = wire::FrameView::unchecked(bytes);
-        const auto expected = model_.route(link, bytes, now_);
+        const auto* const info = dialect::default_dialect().wire_table().find(frame.id());
+        const auto expected = model_.route(link, bytes, now_, is_repeated);
         std::vector<Explanation> why;
-        const auto explained = explaining_.explain(frame, dialect::default_dialect().wire_table().find(frame.id()),
-                                                   LinkId{link}, now_, why);
-        const auto decision = routing_.route(frame, LinkId{link}, now_);
+        const auto explained = explaining_.explain(frame, info, LinkId{link}, now_, why, is_repeated);
+        const auto decision = routing_.route(frame, routing_.mark_of(frame), info, LinkId{link}, now_, is_repeated);
 
         RC_ASSERT(verdict_name(decision.verdict) == verdict_name(expected.verdict));
         RC_ASSERT(verdict_name(explained.verdict) == verdict_name(expected.verdict));

@@ -83,7 +83,8 @@ public:
         std::erase_if(current_, is_empty);
     }
 
-    Result route(std::uint32_t ingress, const Bytes& bytes, MonoTime now) {
+    Result route(std::uint32_t ingress, const Bytes& bytes, MonoTime now, bool is_repeated = false) {
+        is_repeated_ = is_repeated;
         const auto frame = wire::FrameView::unchecked(bytes);
         now_ = now;
         is_verified_ = links_.contains(ingress) && links_[ingress].policy.is_verified;
@@ -192,7 +193,7 @@ private:
             });
             if ((by_member && !again && age < std::chrono::seconds{2}) || (age < options_.dedup && !r->heard.empty())) {
                 r->heard.insert(ingress);
-                if (!again && (!link.policy.is_verified || has_route(ingress, frame))) learn(ingress, frame);
+                if (!again) learn(ingress, frame);
                 return Verdict::duplicate;
             }
             if (age < std::chrono::seconds{2} && !again) {
@@ -265,6 +266,7 @@ private:
     }
 
     void learn(std::uint32_t ingress, const wire::FrameView& frame) {
+        if (is_repeated_ && !has_route(ingress, frame)) return;
         if (links_[ingress].policy.group != 0) count_heartbeat(links_[ingress], frame, is_doubled(ingress, frame));
         links_[ingress].last_heard = now_;
         const auto system = frame.system().value, component = frame.component().value;
@@ -291,6 +293,7 @@ private:
     // A link that kept five frames of systems of which it returned nothing, the first of them 2 s ago, does not send
     // back what it gets: then an echo shows where its sender is. An echo also refreshes a route.
     void learn_from_echo(std::uint32_t ingress, const wire::FrameView& frame) {
+        if (is_repeated_) return;
         Link& link = links_[ingress];
         const auto system = frame.system().value, component = frame.component().value;
         if (link.last_echo && now_ - *link.last_echo >= std::chrono::seconds{60}) link.returned.clear();
@@ -515,7 +518,7 @@ private:
 
     Options options_;
     MonoTime now_{};
-    bool is_verified_ = false;  // the frame being routed
+    bool is_verified_ = false, is_repeated_ = false;  // the frame being routed
     std::map<std::uint32_t, Link> links_;
     std::map<std::uint32_t, GroupMode> group_modes_;  // the first link of a group decides
     std::map<std::uint32_t, std::uint32_t> current_;  // of a `best` group

@@ -229,6 +229,65 @@ const std::array signed_in_turn{
     test::hex("fd0901000201010000000000000002030004039c3b00402d4088792d328a82fa5632"),
 };
 
+// A frame that one endpoint has heard arrives on another. A sender without the key may have sent it there.
+class RepeatedFrames : public SigningTimes {
+protected:
+    [[nodiscard]] std::unique_ptr<Signature> endpoint(bool signs, bool verifies, std::string group = "radios") {
+        auto wanted = options(signs, verifies);
+        wanted.group = std::move(group);
+        return *Signature::load(wanted, 0, states, notices);
+    }
+    static bool accepts(const std::unique_ptr<Signature>& signature, std::size_t n) {
+        return signature->accepts(wire::FrameView::unchecked(signed_in_turn[n]), now);
+    }
+
+    static constexpr WallTime now{std::chrono::seconds{1'420'070'400 + 500'000'000}};
+    KeyStates states;
+};
+
+TEST_F(RepeatedFrames, AreToldFromThoseThatALinkOfTheGroupBringsFirst) {
+    const auto first = endpoint(false, true), second = endpoint(false, true);
+
+    EXPECT_TRUE(accepts(first, 0) && !first->is_repeated());
+    EXPECT_TRUE(accepts(second, 0) && second->is_repeated());
+    EXPECT_TRUE(accepts(second, 1) && !second->is_repeated());
+    EXPECT_TRUE(accepts(first, 1) && first->is_repeated());
+}
+
+TEST_F(RepeatedFrames, AreNoProofOfAPeer) {
+    const auto first = endpoint(false, true), second = endpoint(false, true);
+
+    EXPECT_TRUE(accepts(first, 0));
+    EXPECT_FALSE(second->accepts_early(wire::FrameView::unchecked(signed_in_turn[0]), now));
+    EXPECT_TRUE(second->accepts_early(wire::FrameView::unchecked(signed_in_turn[1]), now));
+}
+
+TEST_F(RepeatedFrames, AreKnownFromEndpointsOutsideTheGroup) {
+    const auto outside = endpoint(false, true, ""), inside = endpoint(false, true);
+
+    EXPECT_TRUE(accepts(inside, 0) && !inside->is_repeated());
+    EXPECT_TRUE(accepts(outside, 1));
+    EXPECT_TRUE(accepts(inside, 1) && inside->is_repeated());
+}
+
+TEST_F(RepeatedFrames, AreKnownFromEndpointsThatDoNotVerify) {
+    const auto verified = endpoint(false, true, ""), signing = endpoint(true, false, "");
+
+    states.note_heard(wire::FrameView::unchecked(signed_in_turn[0]));
+    EXPECT_TRUE(accepts(verified, 0) && verified->is_repeated());
+    EXPECT_TRUE(accepts(signing, 1));
+    EXPECT_TRUE(accepts(verified, 1) && verified->is_repeated());
+}
+
+TEST_F(RepeatedFrames, AreNotThoseThatOnlyLookSigned) {
+    const auto verified = endpoint(false, true, "");
+    auto forged = signed_in_turn[0];
+    forged.back() ^= 1;
+
+    states.note_heard(wire::FrameView::unchecked(forged));
+    EXPECT_TRUE(accepts(verified, 0) && !verified->is_repeated());
+}
+
 // The second link's own verifier has seen nothing, so only what the group heard states that the frame is old.
 TEST_F(SigningTimes, InAGroupAFrameThatCameLongAgoIsNotTakenFromAnotherLink) {
     constexpr WallTime now{std::chrono::seconds{1'420'070'400 + 500'000'000}};

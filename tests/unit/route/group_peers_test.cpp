@@ -152,7 +152,7 @@ protected:
         const Bytes bytes = make_frame("HEARTBEAT", vehicle, {{"custom_mode", ++sut.count}});
         sut.wait(100ms);
         sut.pass(2, bytes);
-        sut.pass(1, bytes);
+        sut.pass(1, bytes, true);
     }
 
     Network sut;

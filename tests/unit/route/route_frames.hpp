@@ -96,8 +96,10 @@ public:
         return send(link, "COMMAND_LONG", source,
                     {{"target_system", target.system}, {"target_component", target.component}, {"param1", ++count}});
     }
-    Ids pass(std::uint32_t link, const Bytes& bytes) {
-        const auto decision = engine.route(wire::FrameView::unchecked(bytes), LinkId{link}, now);
+    Ids pass(std::uint32_t link, const Bytes& bytes, bool is_repeated = false) {
+        const auto frame = wire::FrameView::unchecked(bytes);
+        const auto* const info = dialect::default_dialect().wire_table().find(frame.id());
+        const auto decision = engine.route(frame, engine.mark_of(frame), info, LinkId{link}, now, is_repeated);
         verdict = decision.verdict;
         return ids_of(decision.links);
     }

@@ -12,7 +12,7 @@ namespace mavloom::flight {
 namespace {
 
 constexpr double rotor_lag = 0.03;  // s
-constexpr double lag_share = step_s / rotor_lag;
+constexpr double rotor_lag_share = step_s / rotor_lag;
 constexpr double body_drag = 0.2;  // 1/s at sea level
 constexpr double sea_level_density = 1.225;
 
@@ -58,7 +58,7 @@ void Multicopter::move_origin(const Vector3& by) {
 void Multicopter::step(const Setpoint& setpoint, bool armed, const Surroundings& around) {
     air_velocity_ = motion_.velocity - around.wind;
     const bool has_power = armed && around.supply > 0;
-    rotors_.step(has_power ? control(is_plain(setpoint) ? setpoint : made_plain(setpoint)) : Moments{}, lag_share);
+    rotors_.step(has_power ? control(is_plain(setpoint) ? setpoint : made_plain(setpoint)) : Moments{}, rotor_lag_share);
     if (!has_power) ground_thrust_ = 0;
     steering_ = setpoint.steering;
     move(around);

@@ -86,8 +86,8 @@ Trajectory::Demand Trajectory::horizontal_demand(const Setpoint& setpoint) const
         const Vector2 way = setpoint.position.head<2>() - target_.position.head<2>();
         const double distance = way.norm();
         if (distance < 1e-6) return {};
-        const double braking = braking_share * limits.acceleration;
-        const double speed = std::min(closing_speed(distance, position_gain, braking), limits.horizontal);
+        const double deceleration = braking_share * limits.acceleration;
+        const double speed = std::min(closing_speed(distance, position_gain, deceleration), limits.horizontal);
         return {.velocity = way * (speed / distance)};
     }
     if (has_horizontal(setpoint.velocity))
@@ -104,8 +104,8 @@ Trajectory::Demand Trajectory::circle_demand(const Setpoint& setpoint) const {
     const Vector2 outwards = distance > 1e-3 ? Vector2(offset / distance) : Vector2(1, 0);
     const Vector2 around = Vector2(-outwards.y(), outwards.x()) * side;
     const double fastest = std::min(limits.horizontal, std::sqrt(0.8 * limits.acceleration * radius));
-    const double braking = braking_share * limits.acceleration;
-    const double out = std::clamp(closing_speed(radius - distance, position_gain, braking), -fastest, fastest);
+    const double deceleration = braking_share * limits.acceleration;
+    const double out = std::clamp(closing_speed(radius - distance, position_gain, deceleration), -fastest, fastest);
     const double along = std::sqrt(std::max(fastest * fastest - out * out, 0.0));
     const double moves = target_.velocity.head<2>().dot(around);
     return {.velocity = outwards * out + around * along,
