@@ -1,5 +1,5 @@
 # Headers that nearly every file includes, compiled once, which saves a third of a build's time. Only headers from
-# outside. Files still include what they use: the preset `tidy` compiles the library and the program without.
+# outside. Files still include what they use: `.ci/run --full` compiles each without.
 set(mavloom_precompiled <algorithm> <array> <charconv> <chrono> <fmt/format.h> <functional> <memory> <optional> <span>
     <string> <string_view> <tl/expected.hpp> <utility> <vector>)
 

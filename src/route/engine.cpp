@@ -221,7 +221,7 @@ void Engine::Impl::count_beats(const Passage& p) noexcept {
     for (const Slot slot : members) links[slot]->beats = (links[slot]->beats + 1) / 2;
 }
 
-// A link gets a route by a frame that it brings first. Repeated frames only refresh the route.
+// A signed frame that another endpoint heard earlier teaches no new route.
 void Engine::Impl::learn(Passage& p) noexcept {
     if (p.is_repeated && routes_.find(p.slot, p.source) == nullptr) return;
     if (p.link.group != no_group && groups_[p.link.group].mode == GroupMode::best) count_beats(p);

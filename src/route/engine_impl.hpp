@@ -124,7 +124,7 @@ private:
         Slot slot;
         Link& link;
         MonoTime now;
-        bool is_repeated = false;  // a signed frame that another endpoint has already delivered
+        bool is_repeated = false;  // a signed frame that another endpoint has heard before
         bool is_remembered = false;
         bool is_directed = false;  // goes to the links of its target
         bool is_copy = false;      // copy of a frame that arrived earlier on another link

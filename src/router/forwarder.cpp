@@ -77,11 +77,12 @@ void Forwarder::send(const link::RxFrame& rx, std::span<const LinkId> links, boo
     else not_signed_.add(links_.send_unverified(links, rx.frame));
 }
 
-// Ignores reboots shown by frames that teach no route: those from taps, and those that the input filter drops.
+// Ignores reboots shown by frames that teach no route: those from taps, those that the input filter drops, and signed
+// frames that another endpoint has heard.
 void Forwarder::count_loss(const link::RxFrame& rx, const route::LinkPolicy& policy) {
     if (links_.count_loss(rx).verdict != wire::SequenceTracker::Verdict::reboot) [[likely]]
         return;
-    if (!policy.tap && policy.in.admits(rx.frame.id(), rx.frame.source()))
+    if (!policy.tap && !rx.is_repeated && policy.in.admits(rx.frame.id(), rx.frame.source()))
         engine_.note_reboot(rx.link, rx.frame.source(), links_.now());
 }
 

@@ -46,7 +46,8 @@ def test_outside_project_finds_the_installed_package(installed, tmp_path):
 
 
 def test_outside_project_takes_the_checkout_as_a_subdirectory(tmp_path):
-    assert build_outside(tmp_path, f"-DMAVLOOM_SOURCE={ROOT}", "-DCMAKE_UNITY_BUILD=ON") == EXPECTED
+    unity = "OFF" if "MAVLOOM_FULL" in os.environ else "ON"  # halves the time
+    assert build_outside(tmp_path, f"-DMAVLOOM_SOURCE={ROOT}", f"-DCMAKE_UNITY_BUILD={unity}") == EXPECTED
     cache = (tmp_path / "CMakeCache.txt").read_text()
     assert "MAVLOOM_TESTS:BOOL=OFF" in cache
 

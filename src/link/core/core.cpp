@@ -68,8 +68,9 @@ void Core::remove_link(Link& link, std::string_view why) {
 
 void Core::on_frame(Link& link, const wire::ParseEvent& event, WallTime time) {
     LinkCounters& counters = link.counters;
-    if (link.signature == nullptr) {
-        key_states.note_heard(event.frame);
+    const bool verifies = link.signature != nullptr && link.signature->verifies();
+    if (!verifies) {
+        key_states.note_heard(event.frame, now_);
     } else if (!link.signature->accepts(event.frame, time)) [[unlikely]] {
         counters.bad_signature.add();
         return;
@@ -80,8 +81,13 @@ void Core::on_frame(Link& link, const wire::ParseEvent& event, WallTime time) {
         counters.unknown_ids.add();
     const auto* const update = owner_counts_loss_ ? &wire::no_loss : &count_loss(link, event.frame, event.info);
     ++frames_this_turn_;
-    const bool is_repeated = link.signature != nullptr && link.signature->is_repeated();
-    events.handler()->on_frame({event.frame, event.info, link.id, link.endpoint, time, update, 0, is_repeated});
+    events.handler()->on_frame({.frame = event.frame,
+                                .info = event.info,
+                                .link = link.id,
+                                .endpoint = link.endpoint,
+                                .time = time,
+                                .sequence = update,
+                                .is_repeated = verifies && link.signature->is_repeated()});
 }
 
 void Core::on_bad_bytes(Link& link, const wire::ParseEvent& event) {

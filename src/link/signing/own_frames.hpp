@@ -2,8 +2,8 @@
 // Recognises frames that this process signed and that somebody sends back to it. Without this check, a sender that does
 // not have the key would pass as one that has it.
 //
-// A frame with one of our link ids counts as ours in two cases: we remember its signature (SignatureMarks), or its time
-// is not newer than the newest signature that its bucket has dropped. So frames of another program with the same key
+// A frame with one of our link ids counts as ours in two cases: SignatureMarks remembers its signature, or its time is
+// not newer than the newest one that SignatureMarks has dropped for it. So frames of another program with the same key
 // and link id are accepted, unless its clock is far behind ours.
 //
 // Private to module link; single owner thread; allocates only in `sign_as`.

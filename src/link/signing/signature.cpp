@@ -40,7 +40,7 @@ SetupResult<Signature::OpenKey> Signature::open(const std::string& path, std::ve
 // the shared state only rejects frames that are too late.
 void Signature::verify_with(const OpenKey& with, bool in_group) {
     verifying_key_ = states_.shared_key(with.key);
-    verifying_key_->heard.start();
+    if (!states_.endpoints_are_independent) verifying_key_->heard.start();
     if (!in_group) return;
     own_.emplace(with.key);
     for (const auto& stream : verifying_key_->verifier.streams()) own_->restore(stream);
@@ -64,13 +64,12 @@ bool Signature::is_own(const wire::FrameView& frame) const noexcept {
 }
 
 bool Signature::takes(const wire::FrameView& frame, wire::SigningTime now) {
+    is_repeated_ = false;
     if (is_own(frame)) return false;
     const bool is_good = own_ ? takes_in_group(frame, now)
                               : verifying_key_->verifier.verify(frame, now) == wire::Verifier::Verdict::good;
-    if (!is_good) return false;
-    is_repeated_ = verifying_key_->heard.has(frame);
-    if (!is_repeated_) verifying_key_->heard.note(frame);
-    return true;
+    if (is_good) is_repeated_ = verifying_key_->heard.hear(frame, mono_now());
+    return is_good;
 }
 
 bool Signature::takes_in_group(const wire::FrameView& frame, wire::SigningTime now) {
@@ -110,10 +109,7 @@ void Signature::keep_times() const {
 }
 
 bool Signature::accepts(const wire::FrameView& frame, WallTime now) noexcept {
-    if (!verifying_key_) {
-        states_.note_heard(frame);
-        return true;
-    }
+    if (!verifying_key_) return true;
     if (accepted_ == frame.bytes().data()) {
         accepted_ = nullptr;
         is_repeated_ = false;

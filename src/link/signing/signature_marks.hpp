@@ -19,6 +19,7 @@ public:
     void start() {
         if (buckets_.empty()) buckets_.resize(bucket_count);
     }
+    [[nodiscard]] bool is_started() const noexcept { return !buckets_.empty(); }
     void note(const wire::FrameView& frame) noexcept {
         if (buckets_.empty()) return;
         const Mark mark = mark_of(frame);

@@ -241,11 +241,12 @@ std::shared_ptr<SharedKey> KeyStates::shared_key(const wire::SigningKey& key) {
     return shared;
 }
 
-void KeyStates::note_heard(const wire::FrameView& frame) noexcept {
+void KeyStates::note_heard(const wire::FrameView& frame, MonoTime now) noexcept {
     if (!frame.is_signed()) return;
     for (const auto& [fingerprint, known] : shared_keys_) {
         const auto shared = known.lock();
-        if (shared && shared->verifier.is_of_key(frame)) shared->heard.note(frame);
+        if (shared && shared->heard.is_started() && shared->verifier.is_of_key(frame))
+            (void)shared->heard.hear(frame, now);
     }
 }
 

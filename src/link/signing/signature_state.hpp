@@ -21,9 +21,9 @@
 #include <thread>
 #include <vector>
 
+#include "link/signing/heard_frames.hpp"
 #include "link/signing/late_frames.hpp"
 #include "link/signing/own_frames.hpp"
-#include "link/signing/signature_marks.hpp"
 #include "mavloom/base/clock.hpp"
 #include "mavloom/base/result.hpp"
 #include "mavloom/wire/signing.hpp"
@@ -75,7 +75,7 @@ struct SharedKey {
     wire::Verifier verifier;
     LateFrames late;
     OwnFrames own;
-    SignatureMarks heard;  // with a good signature, on any endpoint
+    HeardFrames heard;
 };
 
 class KeyStates {
@@ -97,9 +97,9 @@ public:
                                                 std::vector<std::string>& notices);
     // The shared state of a key. Call it before `begin_signing`.
     [[nodiscard]] std::shared_ptr<SharedKey> shared_key(const wire::SigningKey& key);
-    // Call it for frames of endpoints without verify=. If a frame is signed with a key in use, endpoints with verify=
-    // then know that they were not the first to hear it.
-    void note_heard(const wire::FrameView& frame) noexcept;
+    // Call it for frames of endpoints without verify=. If a frame is signed with the key of an endpoint with verify=,
+    // that endpoint then knows that it was not the first to hear the frame.
+    void note_heard(const wire::FrameView& frame, MonoTime now) noexcept;
     // Call it before signing the first frame with the key. An error if the key's times are used up.
     [[nodiscard]] static SetupResult<void> begin_signing(KeyFile& file);
     // Whether the endpoints are used like separate programs, so that one may hear what another has signed.

@@ -245,7 +245,7 @@ protected:
     KeyStates states;
 };
 
-TEST_F(RepeatedFrames, AreToldFromThoseThatALinkOfTheGroupBringsFirst) {
+TEST_F(RepeatedFrames, DifferFromFirstArrivals) {
     const auto first = endpoint(false, true), second = endpoint(false, true);
 
     EXPECT_TRUE(accepts(first, 0) && !first->is_repeated());
@@ -271,12 +271,34 @@ TEST_F(RepeatedFrames, AreKnownFromEndpointsOutsideTheGroup) {
 }
 
 TEST_F(RepeatedFrames, AreKnownFromEndpointsThatDoNotVerify) {
-    const auto verified = endpoint(false, true, ""), signing = endpoint(true, false, "");
+    const auto verified = endpoint(false, true, "");
 
-    states.note_heard(wire::FrameView::unchecked(signed_in_turn[0]));
+    states.note_heard(wire::FrameView::unchecked(signed_in_turn[0]), mono_now());
     EXPECT_TRUE(accepts(verified, 0) && verified->is_repeated());
-    EXPECT_TRUE(accepts(signing, 1));
+}
+
+TEST_F(RepeatedFrames, AreKnownForeverAndHoweverOftenTheyCome) {
+    const auto verified = endpoint(false, true, "");
+    const auto hear = [&](std::size_t n, MonoTime at) {
+        states.note_heard(wire::FrameView::unchecked(signed_in_turn[n]), at);
+    };
+    const MonoTime begin = mono_now() - std::chrono::seconds{10};
+
+    hear(1, begin);
+    hear(2, begin + std::chrono::seconds{1});
+    for (int i = 0; i < 1000; ++i) hear(0, begin + std::chrono::seconds{2});
     EXPECT_TRUE(accepts(verified, 1) && verified->is_repeated());
+    EXPECT_TRUE(accepts(verified, 2) && verified->is_repeated());
+}
+
+TEST_F(RepeatedFrames, AreForgottenWhenAForgedOneFollows) {
+    const auto verified = endpoint(false, true, "");
+    states.note_heard(wire::FrameView::unchecked(signed_in_turn[0]), mono_now());
+    auto forged = signed_in_turn[1];
+    forged.back() ^= 1;
+
+    EXPECT_TRUE(accepts(verified, 0) && verified->is_repeated());
+    EXPECT_FALSE(verified->accepts(wire::FrameView::unchecked(forged), now) || verified->is_repeated());
 }
 
 TEST_F(RepeatedFrames, AreNotThoseThatOnlyLookSigned) {
@@ -284,7 +306,7 @@ TEST_F(RepeatedFrames, AreNotThoseThatOnlyLookSigned) {
     auto forged = signed_in_turn[0];
     forged.back() ^= 1;
 
-    states.note_heard(wire::FrameView::unchecked(forged));
+    states.note_heard(wire::FrameView::unchecked(forged), mono_now());
     EXPECT_TRUE(accepts(verified, 0) && !verified->is_repeated());
 }
 

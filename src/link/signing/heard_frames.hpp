@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Recognises signed frames that the process has heard before, on any of its endpoints. Somebody without the key can
+// read such a frame and send it again.
+//
+// The class remembers the signatures of the frames of the last 0.6 to 1.8 s (LateFrames), up to about 65,000. An older
+// frame of the same sender counts as heard. So old frames, sent again, cannot push new ones out.
+//
+// Private to module link; single owner thread; allocates only for a new sender.
+#pragma once
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "link/signing/late_frames.hpp"
+#include "link/signing/signature_marks.hpp"
+#include "mavloom/base/clock.hpp"
+#include "mavloom/wire/signing.hpp"
+
+namespace mavloom::link::detail {
+
+class HeardFrames {
+public:
+    // Before this call, no frame counts as heard.
+    void start() { marks_.start(); }
+    [[nodiscard]] bool is_started() const noexcept { return marks_.is_started(); }
+
+    // Remembers the frame, whose signature is good. Returns whether it was heard before.
+    [[nodiscard]] bool hear(const wire::FrameView& frame, MonoTime now) {
+        if (!is_started()) return false;
+        const auto [sender, time] = wire::Verifier::stream_of(frame);
+        // Only somebody with the key can name so many senders.
+        if (newest_.size() == most_senders && !newest_.contains(sender)) forget_senders();
+        wire::SigningTime& newest = newest_[sender];
+        const bool is_late = late_.is_too_late(sender, time, newest, now);
+        newest = std::max(newest, time);
+        if (is_late || marks_.has(frame)) return true;
+        marks_.note(frame);
+        return false;
+    }
+
+private:
+    static constexpr std::size_t most_senders = 4 * wire::Verifier::max_streams;
+
+    void forget_senders() noexcept {
+        newest_.clear();
+        late_ = {};
+    }
+
+    SignatureMarks marks_;
+    LateFrames late_;
+    std::unordered_map<std::uint32_t, wire::SigningTime> newest_;  // the newest time of each sender
+};
+
+}  // namespace mavloom::link::detail
