@@ -223,7 +223,8 @@ void Engine::Impl::count_beats(const Passage& p) noexcept {
 
 // A signed frame that another endpoint heard earlier teaches no new route.
 void Engine::Impl::learn(Passage& p) noexcept {
-    if (p.is_repeated && routes_.find(p.slot, p.source) == nullptr) return;
+    if (p.is_repeated && routes_.find(p.slot, p.source) == nullptr) [[unlikely]]
+        return;
     if (p.link.group != no_group && groups_[p.link.group].mode == GroupMode::best) count_beats(p);
     p.link.heard = true;
     p.link.last_heard = p.now;

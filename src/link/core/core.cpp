@@ -66,15 +66,19 @@ void Core::remove_link(Link& link, std::string_view why) {
     links.remove(link.id);
 }
 
+void Core::note_heard(const Link& link, const wire::FrameView& frame) {
+    if (link.signature == nullptr || !link.signature->verifies()) key_states.note_heard(frame, now_);
+}
+
 void Core::on_frame(Link& link, const wire::ParseEvent& event, WallTime time) {
     LinkCounters& counters = link.counters;
-    const bool verifies = link.signature != nullptr && link.signature->verifies();
-    if (!verifies) {
-        key_states.note_heard(event.frame, now_);
-    } else if (!link.signature->accepts(event.frame, time)) [[unlikely]] {
-        counters.bad_signature.add();
-        return;
+    bool is_repeated = false;
+    if (link.signature != nullptr) [[unlikely]] {
+        if (!link.signature->accepts(event.frame, time)) return counters.bad_signature.add();
+        is_repeated = link.signature->is_repeated();
     }
+    if (key_states.compares_heard) [[unlikely]]
+        note_heard(link, event.frame);
     counters.frames_in.add();
     counters.bytes_in.add(event.frame.size());
     if (event.info == nullptr) [[unlikely]]
@@ -87,7 +91,7 @@ void Core::on_frame(Link& link, const wire::ParseEvent& event, WallTime time) {
                                 .endpoint = link.endpoint,
                                 .time = time,
                                 .sequence = update,
-                                .is_repeated = verifies && link.signature->is_repeated()});
+                                .is_repeated = is_repeated});
 }
 
 void Core::on_bad_bytes(Link& link, const wire::ParseEvent& event) {

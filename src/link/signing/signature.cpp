@@ -40,7 +40,10 @@ SetupResult<Signature::OpenKey> Signature::open(const std::string& path, std::ve
 // the shared state only rejects frames that are too late.
 void Signature::verify_with(const OpenKey& with, bool in_group) {
     verifying_key_ = states_.shared_key(with.key);
-    if (!states_.endpoints_are_independent) verifying_key_->heard.start();
+    if (!states_.endpoints_are_independent) {
+        verifying_key_->heard.start();
+        states_.compares_heard = true;
+    }
     if (!in_group) return;
     own_.emplace(with.key);
     for (const auto& stream : verifying_key_->verifier.streams()) own_->restore(stream);
