@@ -66,6 +66,7 @@ function(mavloom_module name)
     target_compile_options(${target}_cold PRIVATE ${mavloom_cold_flags})
     target_include_directories(${target}_cold PRIVATE "${PROJECT_SOURCE_DIR}/include" "${PROJECT_SOURCE_DIR}/src")
     target_link_libraries(${target}_cold PRIVATE mavloom_warnings ${arg_DEPENDS} ${arg_LINK} ${arg_PRIVATE_LINK})
+    # All share the precompiled headers of the first.
     get_property(first_cold GLOBAL PROPERTY MAVLOOM_FIRST_COLD)
     if(NOT first_cold)
       set(first_cold ${target}_cold)

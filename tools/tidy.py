@@ -62,17 +62,17 @@ def compiler(entry: dict[str, str]) -> list[str]:
 
 def check_headers(build: pathlib.Path) -> bool:
     """A source of the header's module has the options. Generated headers of messages all come from one template."""
-    module = re.compile(r"/mavloom_([a-z]+)(_cold)?\.dir/")
+    module_in = re.compile(r"/mavloom_([a-z]+)(_cold)?\.dir/")
     options = {found[1]: compiler(entry) for entry in compile_commands(build)
-               if (found := module.search(entry["command"]))}
+               if (found := module_in.search(entry["command"]))}
     commands = []
     for top in ROOT / "include/mavloom", build / "generated/include/mavloom":
         for number, header in enumerate(sorted(top.rglob("*.hpp"))):
             folder = header.relative_to(top).parts[0]
-            if folder != "msg":
-                commands.append([*options[folder], "-include", str(header), "-x", "c++", "/dev/null"])
-            elif number % 40 == 0:
-                commands.append([*options["message"], "-include", str(header), "-x", "c++", "/dev/null"])
+            if folder == "msg" and number % 40:
+                continue
+            module = "message" if folder == "msg" else folder
+            commands.append([*options[module], "-include", str(header), "-x", "c++", "/dev/null"])
     return all_passed(commands, build)
 
 

@@ -34,7 +34,7 @@ public:
     [[nodiscard]] bool has(const wire::FrameView& frame) const noexcept {
         if (!ids_.test(frame.signature()[0])) return false;
         const std::uint64_t time = wire::Verifier::stream_of(frame).last.ticks;
-        return time <= std::max(earlier_, marks_.forgotten(frame)) || marks_.has(frame);
+        return time <= earlier_ || marks_.may_have_had(frame);
     }
 
 private:

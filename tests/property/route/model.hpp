@@ -204,9 +204,6 @@ private:
         }
         return remember(ingress, bytes, frame, why, remembered);
     }
-    [[nodiscard]] bool has_route(std::uint32_t link, const wire::FrameView& frame) const {
-        return is_fresh(link, frame.system().value, frame.component().value);
-    }
     Verdict remember(std::uint32_t ingress, const Bytes& bytes, const wire::FrameView& frame, Why& why,
                      Recent*& remembered) {
         recent_.push_back({bytes, now_, {ingress}, {}});
@@ -266,10 +263,10 @@ private:
     }
 
     void learn(std::uint32_t ingress, const wire::FrameView& frame) {
-        if (is_repeated_ && !has_route(ingress, frame)) return;
+        const auto system = frame.system().value, component = frame.component().value;
+        if (is_repeated_ && !is_fresh(ingress, system, component)) return;
         if (links_[ingress].policy.group != 0) count_heartbeat(links_[ingress], frame, is_doubled(ingress, frame));
         links_[ingress].last_heard = now_;
-        const auto system = frame.system().value, component = frame.component().value;
         if (system == 0 || info(frame) == nullptr || !may_learn(ingress, system)) return;
         const auto same = [&](const Heard& h) {
             return h.link == ingress && h.system == system && h.component == component;

@@ -232,8 +232,8 @@ const std::array signed_in_turn{
 // A frame that one endpoint has heard arrives on another. A sender without the key may have sent it there.
 class RepeatedFrames : public SigningTimes {
 protected:
-    [[nodiscard]] std::unique_ptr<Signature> endpoint(bool signs, bool verifies, std::string group = "radios") {
-        auto wanted = options(signs, verifies);
+    [[nodiscard]] std::unique_ptr<Signature> endpoint(std::string group) {
+        auto wanted = options(false, true);
         wanted.group = std::move(group);
         return *Signature::load(wanted, 0, states, notices);
     }
@@ -246,7 +246,7 @@ protected:
 };
 
 TEST_F(RepeatedFrames, DifferFromFirstArrivals) {
-    const auto first = endpoint(false, true), second = endpoint(false, true);
+    const auto first = endpoint("radios"), second = endpoint("radios");
 
     EXPECT_TRUE(accepts(first, 0) && !first->is_repeated());
     EXPECT_TRUE(accepts(second, 0) && second->is_repeated());
@@ -255,7 +255,7 @@ TEST_F(RepeatedFrames, DifferFromFirstArrivals) {
 }
 
 TEST_F(RepeatedFrames, AreNoProofOfAPeer) {
-    const auto first = endpoint(false, true), second = endpoint(false, true);
+    const auto first = endpoint("radios"), second = endpoint("radios");
 
     EXPECT_TRUE(accepts(first, 0));
     EXPECT_FALSE(second->accepts_early(wire::FrameView::unchecked(signed_in_turn[0]), now));
@@ -263,7 +263,7 @@ TEST_F(RepeatedFrames, AreNoProofOfAPeer) {
 }
 
 TEST_F(RepeatedFrames, AreKnownFromEndpointsOutsideTheGroup) {
-    const auto outside = endpoint(false, true, ""), inside = endpoint(false, true);
+    const auto outside = endpoint(""), inside = endpoint("radios");
 
     EXPECT_TRUE(accepts(inside, 0) && !inside->is_repeated());
     EXPECT_TRUE(accepts(outside, 1));
@@ -271,14 +271,14 @@ TEST_F(RepeatedFrames, AreKnownFromEndpointsOutsideTheGroup) {
 }
 
 TEST_F(RepeatedFrames, AreKnownFromEndpointsThatDoNotVerify) {
-    const auto verified = endpoint(false, true, "");
+    const auto verified = endpoint("");
 
     states.note_heard(wire::FrameView::unchecked(signed_in_turn[0]), mono_now());
     EXPECT_TRUE(accepts(verified, 0) && verified->is_repeated());
 }
 
 TEST_F(RepeatedFrames, AreKnownForeverAndHoweverOftenTheyCome) {
-    const auto verified = endpoint(false, true, "");
+    const auto verified = endpoint("");
     const auto hear = [&](std::size_t n, MonoTime at) {
         states.note_heard(wire::FrameView::unchecked(signed_in_turn[n]), at);
     };
@@ -292,7 +292,7 @@ TEST_F(RepeatedFrames, AreKnownForeverAndHoweverOftenTheyCome) {
 }
 
 TEST_F(RepeatedFrames, AreForgottenWhenAForgedOneFollows) {
-    const auto verified = endpoint(false, true, "");
+    const auto verified = endpoint("");
     states.note_heard(wire::FrameView::unchecked(signed_in_turn[0]), mono_now());
     auto forged = signed_in_turn[1];
     forged.back() ^= 1;
@@ -302,7 +302,7 @@ TEST_F(RepeatedFrames, AreForgottenWhenAForgedOneFollows) {
 }
 
 TEST_F(RepeatedFrames, AreNotThoseThatOnlyLookSigned) {
-    const auto verified = endpoint(false, true, "");
+    const auto verified = endpoint("");
     auto forged = signed_in_turn[0];
     forged.back() ^= 1;
 
