@@ -15,6 +15,7 @@ import time
 import pytest
 
 import mavloom
+from places import free_port
 from tlogs import packer
 from vehicles import DEADLINE_S, Vehicle, flood, until
 
@@ -720,9 +721,7 @@ def test_row_26_a_link_that_goes_frees_its_port_at_once():
 
 
 def test_row_26_what_is_iterated_stays_open(peer):
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
+    port = free_port()
 
     async def watch():
         found = 0

@@ -11,7 +11,7 @@ import sys
 import pytest
 
 from guides import PAGES, script_of
-from places import ROOT
+from places import ROOT, free_port
 from tlogs import frames_of
 from vehicles import again_and_again
 
@@ -33,9 +33,7 @@ def vehicle_at(port, flight):
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_examples_run(page, flight, tmp_path, child_environment):
     shutil.copy(flight, tmp_path / "flight.tlog")
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
+    port = free_port()
     ring, inlet = f"guides-{port}", str(tmp_path / "px4.in")
     script = script_of(page)
     for written, used in (("14550", str(port)), ('"px4"', f'"{ring}"'), ("shm://px4", f"shm://{ring}"),

@@ -37,7 +37,7 @@ import numpy
 import pytest
 
 import mavloom
-from places import PROGRAM
+from places import PROGRAM, free_port
 from tlogs import frames_of
 
 DEADLINE_S = 60
@@ -2008,9 +2008,7 @@ def hear(child_environment, ring):
     processes = []
 
     def call(*words, url=None, **options):
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
-            free.bind(("127.0.0.1", 0))
-            port = free.getsockname()[1]
+        port = free_port()
         processes.append(subprocess.Popen([sys.executable, "-m", "mavloom.hear", url or f"udpin://127.0.0.1:{port}",
                                            *words], env=child_environment,
                                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options))

@@ -98,6 +98,11 @@ RC_GTEST_PROP(Tlog, DamageLosesOnlyWhatItTouches, ()) {
     test::write_file(path, content);
 
     auto reader = TlogReader::open(path, golden_table());
+    // The damage may leave a short recording that is all text, which the reader refuses.
+    if (!reader) {
+        RC_ASSERT(intact.empty());
+        return;
+    }
     const auto found = read_samples(*reader);
 
     // Put-in bytes between two records can happen to leave the one around them whole, so more may be found than is

@@ -15,6 +15,7 @@ import pytest
 
 import mavloom
 from mavloom import mavutil
+from places import free_port
 from tlogs import packer
 from vehicles import Vehicle, until
 
@@ -28,12 +29,6 @@ def module(request, their_mavutil):
 
 # ---- TCP
 
-def free_port():
-    with socket.socket() as one:
-        one.bind(("127.0.0.1", 0))
-        return one.getsockname()[1]
-
-
 @pytest.mark.parametrize("tries, options", [
     (3, {}), (1, {"retries": 1}), (1, {"retries": 0}), (1, {"retries": -1}), (3, {"autoreconnect": True}),
     (5, {"retries": 5, "reconnect_delay": 0.25})])
@@ -41,13 +36,13 @@ def test_a_server_that_never_comes_is_tried_as_often_as_by_pymavlink(tries, opti
     pauses = []
     monkeypatch.setattr(time, "sleep", pauses.append)
     with pytest.raises(ConnectionRefusedError):
-        module.mavlink_connection(f"tcp:127.0.0.1:{free_port()}", **options)
+        module.mavlink_connection(f"tcp:127.0.0.1:{free_port(socket.SOCK_STREAM)}", **options)
     assert pauses == [options.get("reconnect_delay", 1)] * (tries - 1)
     assert capsys.readouterr().out == "[Errno 111] Connection refused sleeping\n" * (tries - 1)
 
 
 def test_a_server_that_comes_later_is_reached(module, monkeypatch):
-    port, pauses = free_port(), []
+    port, pauses = free_port(socket.SOCK_STREAM), []
     with contextlib.ExitStack() as servers:
         def begin_to_listen(pause):
             pauses.append(pause)
@@ -61,7 +56,7 @@ def test_a_server_that_comes_later_is_reached(module, monkeypatch):
 @pytest.mark.parametrize("pause", [-1, float("nan"), float("inf"), "1"])
 def test_pauses_that_are_none(pause):
     with pytest.raises(mavloom.UsageError, match="reconnect_delay: .* is no number of seconds"):
-        mavutil.mavlink_connection(f"tcp:127.0.0.1:{free_port()}", reconnect_delay=pause)
+        mavutil.mavlink_connection(f"tcp:127.0.0.1:{free_port(socket.SOCK_STREAM)}", reconnect_delay=pause)
 
 
 # ---- strings
@@ -70,7 +65,7 @@ def test_pauses_that_are_none(pause):
     ("udpin::{}", "udpout:127.0.0.1:{}"), (":{}", "udpout::{}"), ("udp::{}", "udpout:localhost:{}"),
     ("tcpin::{}", "tcp:127.0.0.1:{}"), ("tcpin::{}", "tcp::{}")])
 def test_a_port_alone_is_a_place(listening, sending, module):
-    port = free_udp_port()
+    port = free_port(socket.SOCK_STREAM if listening.startswith("tcpin") else socket.SOCK_DGRAM)
     listener = module.mavlink_connection(listening.format(port))
     sender = module.mavlink_connection(sending.format(port), source_system=7)
     if listening.startswith("tcpin"):
@@ -82,7 +77,7 @@ def test_a_port_alone_is_a_place(listening, sending, module):
 
 
 def test_a_port_alone_is_one_of_pymavlinks_group():
-    port = free_udp_port()
+    port = free_port()
     for text, place in ((f"mcast:{port}", f"239.255.145.50:{port}"), ("mcast:", "239.255.145.50:14550"),
                         (f"mcast:239.1.1.1:{port}", f"239.1.1.1:{port}")):
         connection = mavutil.mavlink_connection(text)
@@ -119,14 +114,14 @@ def test_a_folder_is_refused_by_name(tmp_path):
 @pytest.mark.parametrize("call", [lambda c: c.recv_match(blocking=True, timeout=float("nan")),
                                   lambda c: c.wait_heartbeat(timeout=float("nan")), lambda c: c.select(float("nan"))])
 def test_times_that_are_none_are_refused(call, module):
-    connection = module.mavlink_connection(f"udpin:127.0.0.1:{free_udp_port()}")
+    connection = module.mavlink_connection(f"udpin:127.0.0.1:{free_port()}")
     with pytest.raises(ValueError):
         call(connection)
     connection.close()
 
 
 def test_a_descriptor_is_ready_only_while_messages_wait(module, peer):
-    port = free_udp_port()
+    port = free_port()
     connection, vehicle = module.mavlink_connection(f"udpin:127.0.0.1:{port}"), Vehicle(peer, port)
     for burst in (1, 3, 1):
         for _ in range(burst):
@@ -139,7 +134,7 @@ def test_a_descriptor_is_ready_only_while_messages_wait(module, peer):
 
 
 def test_an_idle_link_is_not_ready(module, peer):
-    port = free_udp_port()
+    port = free_port()
     connection, vehicle = module.mavlink_connection(f"udpin:127.0.0.1:{port}"), Vehicle(peer, port)
     assert not connection.select(0) and not connection.select(0.01)
     for _ in range(2):
@@ -168,16 +163,10 @@ def test_the_progress_of_opening_a_recording(module, flight):
 
 # ---- several connections on one UDP port
 
-def free_udp_port():
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as one:
-        one.bind(("127.0.0.1", 0))
-        return one.getsockname()[1]
-
-
 @pytest.mark.parametrize("kind", ["udpin", "udp"])
 def test_a_function_may_open_a_port_again_without_closing_it(kind, module, peer):
     """The newest connection receives, as with pymavlink's sockets."""
-    port, left_open = free_udp_port(), []
+    port, left_open = free_port(), []
 
     def wait_for_a_heartbeat():
         connection = module.mavlink_connection(f"{kind}:127.0.0.1:{port}")
@@ -215,13 +204,13 @@ def test_nobody_is_forgotten_by_default(module):
 @pytest.mark.parametrize("timeout, idle", [(5, "5000ms"), (0.25, "250ms"), (0, "1000h"), (-1, "1000h")])
 @pytest.mark.parametrize("kind", ["udp", "udpin", "udpbcast"])
 def test_the_timeout_is_that_of_the_endpoint(kind, timeout, idle):
-    connection = mavutil.mavlink_connection(f"{kind}:127.0.0.1:{free_udp_port()}", udp_timeout=timeout)
+    connection = mavutil.mavlink_connection(f"{kind}:127.0.0.1:{free_port()}", udp_timeout=timeout)
     assert connection.url.endswith(f"&trusted=true&idle={idle}")
     connection.close()
 
 
 def test_a_silent_program_is_forgotten_while_another_one_speaks(module, peer):
-    connection = module.mavlink_connection(f"udpin:127.0.0.1:{free_udp_port()}", udp_timeout=0.3)
+    connection = module.mavlink_connection(f"udpin:127.0.0.1:{free_port()}", udp_timeout=0.3)
     silent, other = (Vehicle(peer, connection.port.getsockname()[1], system=system) for system in (1, 2))
     silent.send(silent.heartbeat())
     assert connection.wait_heartbeat(timeout=DEADLINE_S) is not None
@@ -350,7 +339,7 @@ def damaged(frame):
 
 def test_damaged_frames_are_counted(module, peer):
     """pymavlink also returns them as BAD_DATA."""
-    port = free_udp_port()
+    port = free_port()
     connection, vehicle = module.mavlink_connection(f"udpin:127.0.0.1:{port}"), Vehicle(peer, port)
     beat = packer(peer).pack(vehicle.heartbeat())
     for frame in (beat, damaged(beat), damaged(beat), beat):
@@ -373,7 +362,7 @@ def frame_of(peer, message_id):
 
 
 def test_messages_without_definition_can_be_waited_for(module, peer):
-    port = free_udp_port()
+    port = free_port()
     connection, vehicle = module.mavlink_connection(f"udpin:127.0.0.1:{port}"), Vehicle(peer, port)
     strange = frame_of(peer, 54321)
     vehicle.send(vehicle.heartbeat())
