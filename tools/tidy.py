@@ -32,8 +32,9 @@ def all_passed(commands: list[list[str]], folder: pathlib.Path) -> bool:
 
 
 def compile_commands(build: pathlib.Path) -> list[dict[str, str]]:
-    return [entry for entry in json.loads((build / "compile_commands.json").read_text())
-            if "/nanobind" not in entry["file"]]
+    found = [entry for entry in json.loads((build / "compile_commands.json").read_text())
+             if "/nanobind" not in entry["file"]]
+    return found or sys.exit(f"{build}: there are no sources to check")
 
 
 def unified(entry: dict[str, str]) -> dict[str, str]:
@@ -67,7 +68,8 @@ def check_headers(build: pathlib.Path) -> bool:
                if (found := module_in.search(entry["command"]))}
     commands = []
     for top in ROOT / "include/mavloom", build / "generated/include/mavloom":
-        for number, header in enumerate(sorted(top.rglob("*.hpp"))):
+        headers = sorted(top.rglob("*.hpp")) or sys.exit(f"{top}: there are no headers to check")
+        for number, header in enumerate(headers):
             folder = header.relative_to(top).parts[0]
             if folder == "msg" and number % 40:
                 continue

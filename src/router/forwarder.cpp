@@ -66,12 +66,12 @@ route::Decision Forwarder::decide(const link::RxFrame& rx, std::uint64_t mark) {
 }
 
 void Forwarder::deliver(const link::RxFrame& rx, const route::Decision& decision, const RoutedEndpoint& from) {
-    send(rx, decision.links, from.verifies);
+    send(rx, decision.links, from.verifies && !rx.is_repeated);
     if (decision.verdict != route::Verdict::echo) count_loss(rx, from.policy);
 }
 
-// Signs only frames whose own signature was verified, so that the router never vouches for unverified traffic. Verified
-// frames also leave first.
+// Signs only frames whose own signature was verified, so that the router never vouches for unverified traffic. A new
+// signature on a copy would hide from its receiver that it is one. Verified frames also leave first.
 void Forwarder::send(const link::RxFrame& rx, std::span<const LinkId> links, bool is_verified) {
     if (is_verified) links_.send(links, rx.frame);
     else not_signed_.add(links_.send_unverified(links, rx.frame));

@@ -136,6 +136,12 @@ SigningTime Verifier::last(std::uint32_t key) const noexcept {
     return it != streams_.end() && it->key == key ? it->last : SigningTime{};
 }
 
+SigningTime Verifier::refused_until(std::uint32_t key, SigningTime now) const noexcept {
+    if (const SigningTime known = last(key); known != SigningTime{}) return known;
+    const std::uint64_t latest = std::max(now, newest_).ticks;
+    return {latest - std::min(latest, first_tolerance_ticks + 1)};
+}
+
 void Verifier::restore(const Stream& stream) noexcept {
     const auto it = std::ranges::lower_bound(streams_, stream.key, {}, &Stream::key);
     if (it != streams_.end() && it->key == stream.key) {

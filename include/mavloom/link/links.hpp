@@ -52,8 +52,8 @@ struct RxFrame {
     const wire::SequenceTracker::Update* sequence = &wire::no_loss;
     // From a ring: the verdict that its writer recorded for the frame (ring/frames.hpp).
     std::uint8_t ring_verdict = 0;
-    // The frame's signature is good, but another endpoint has heard the frame before. So the sender need not have the
-    // key.
+    // The frame's signature is good, but another endpoint has heard the frame before. Somebody without the key may have
+    // sent it here.
     bool is_repeated = false;
 };
 

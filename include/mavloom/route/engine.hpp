@@ -208,7 +208,7 @@ public:
     [[nodiscard]] std::uint64_t mark_of(const wire::FrameView& frame) const noexcept;
     // Decides where the frame goes and learns its route. `info` is null for a message id without definition. `now`
     // should not go backwards: an earlier time counts as the latest one seen. Takes at most some tens of nanoseconds.
-    // `is_repeated`: another endpoint heard this signed frame earlier, so the sender need not have the key. The frame
+    // `is_repeated`: another link brought this signed frame earlier, so the sender need not have the key. The frame
     // teaches no new route, and refreshes an existing one.
     [[nodiscard]] Decision route(const wire::FrameView& frame, std::uint64_t mark, const wire::MessageInfo* info,
                                  LinkId ingress, MonoTime now, bool is_repeated = false) noexcept;

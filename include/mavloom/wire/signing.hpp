@@ -121,6 +121,8 @@ public:
     [[nodiscard]] static Stream stream_of(const FrameView& frame) noexcept;
     // The timestamp of the sender's last accepted frame; 0 if there is none. `key` is as in Stream.
     [[nodiscard]] SigningTime last(std::uint32_t key) const noexcept;
+    // The newest timestamp with which `verify` refuses a frame of this sender at the time `now`.
+    [[nodiscard]] SigningTime refused_until(std::uint32_t key, SigningTime now) const noexcept;
 
     // All streams, sorted by key. Store them and call `restore` after a restart, so that old frames count as replays.
     [[nodiscard]] std::span<const Stream> streams() const noexcept { return streams_; }

@@ -66,19 +66,15 @@ void Core::remove_link(Link& link, std::string_view why) {
     links.remove(link.id);
 }
 
-void Core::note_heard(const Link& link, const wire::FrameView& frame) {
-    if (link.signature == nullptr || !link.signature->verifies()) key_states.note_heard(frame, now_);
-}
-
 void Core::on_frame(Link& link, const wire::ParseEvent& event, WallTime time) {
     LinkCounters& counters = link.counters;
     bool is_repeated = false;
-    if (link.signature != nullptr) [[unlikely]] {
+    if (link.signature != nullptr && link.signature->verifies()) [[unlikely]] {
         if (!link.signature->accepts(event.frame, time)) return counters.bad_signature.add();
         is_repeated = link.signature->is_repeated();
+    } else if (key_states.compares_heard) [[unlikely]] {
+        key_states.note_heard(event.frame, time, now_);
     }
-    if (key_states.compares_heard) [[unlikely]]
-        note_heard(link, event.frame);
     counters.frames_in.add();
     counters.bytes_in.add(event.frame.size());
     if (event.info == nullptr) [[unlikely]]

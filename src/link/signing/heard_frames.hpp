@@ -2,8 +2,8 @@
 // Recognises signed frames that the process has heard before, on any of its endpoints. Somebody without the key can
 // read such a frame and send it again.
 //
-// The class remembers the signatures of the frames of the last 0.6 to 1.8 s (LateFrames), up to about 65,000. An older
-// frame of the same sender counts as heard. So old frames, sent again, cannot push new ones out.
+// The class remembers the signatures of the frames of the last 0.6 to 1.8 s (LateFrames), up to about 65,000. It does
+// not remember older frames of the same sender: they are too late. So old frames, sent again, cannot push new ones out.
 //
 // Private to module link; single owner thread; allocates only for a new sender.
 #pragma once
@@ -20,22 +20,26 @@ namespace mavloom::link::detail {
 
 class HeardFrames {
 public:
-    // Before this call, no frame counts as heard.
+    // Before this call, no frame counts as repeated.
     void start() { marks_.start(); }
     [[nodiscard]] bool is_started() const noexcept { return marks_.is_started(); }
 
-    // Remembers the frame, whose signature is good. Returns whether it was heard before.
-    [[nodiscard]] bool hear(const wire::FrameView& frame, MonoTime now) {
-        if (!is_started()) return false;
+    enum class Verdict : std::uint8_t { is_new, repeated, too_late };
+
+    // Remembers the frame, whose signature is good. `refused_until`: if the sender was not heard yet, frames with this
+    // timestamp or an older one are too late.
+    [[nodiscard]] Verdict hear(const wire::FrameView& frame, MonoTime now, wire::SigningTime refused_until = {}) {
         const auto [sender, time] = wire::Verifier::stream_of(frame);
         // Only somebody with the key can name so many senders.
         if (newest_.size() == most_senders && !newest_.contains(sender)) forget_senders();
-        wire::SigningTime& newest = newest_[sender];
+        wire::SigningTime& newest = newest_.try_emplace(sender, refused_until).first->second;
         const bool is_late = late_.is_too_late(sender, time, newest, now);
         newest = std::max(newest, time);
-        if (is_late || marks_.has(frame)) return true;
+        if (is_late) return Verdict::too_late;
+        if (!is_started()) return Verdict::is_new;
+        if (marks_.has(frame)) return Verdict::repeated;
         marks_.note(frame);
-        return false;
+        return Verdict::is_new;
     }
 
 private:

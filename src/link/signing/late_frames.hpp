@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Separates late frames from replays among signed frames that arrive over several links of a group.
+// Separates late frames from replays among signed frames that arrive over several links: those of a group, or all.
 //
 // For each sender, the class keeps a mark. It was taken at a moment between `least` and `oldest` ago, and is the newest
-// timestamp that the group had received by then. A frame with a newer timestamp than the mark is accepted. If such a
+// timestamp that these links had received by then. A frame with a newer timestamp than the mark is accepted. If such a
 // frame is a replay, the original arrived after that moment. The router still remembers the original and so detects the
 // replay by its bytes: it remembers frames for longer than Links::longest_late. Under a flood of other frames the
 // router may forget frames early; its counter `recent_evicted` shows that.

@@ -37,7 +37,7 @@ SetupResult<Signature::OpenKey> Signature::open(const std::string& path, std::ve
 
 // Endpoints with the same key share one verifier, so a frame that one of them accepted is a replay at the others. In
 // a group the same frame arrives over several links, sometimes late. There each endpoint has its own verifier, and
-// the shared state only rejects frames that are too late.
+// HeardFrames rejects frames that are too late.
 void Signature::verify_with(const OpenKey& with, bool in_group) {
     verifying_key_ = states_.shared_key(with.key);
     if (!states_.endpoints_are_independent) {
@@ -71,17 +71,18 @@ bool Signature::takes(const wire::FrameView& frame, wire::SigningTime now) {
     if (is_own(frame)) return false;
     const bool is_good = own_ ? takes_in_group(frame, now)
                               : verifying_key_->verifier.verify(frame, now) == wire::Verifier::Verdict::good;
-    if (is_good) is_repeated_ = verifying_key_->heard.hear(frame, mono_now());
-    return is_good;
+    if (!is_good) return false;
+    const auto heard = verifying_key_->heard.hear(frame, mono_now());
+    is_repeated_ = heard == HeardFrames::Verdict::repeated;
+    return heard != HeardFrames::Verdict::too_late;
 }
 
 bool Signature::takes_in_group(const wire::FrameView& frame, wire::SigningTime now) {
     if (own_->verify(frame, now) != wire::Verifier::Verdict::good) return false;
     const auto stream = wire::Verifier::stream_of(frame);
-    const auto newest = verifying_key_->verifier.last(stream.key);
     verifying_key_->verifier.restore(stream);
-    const bool has_no_place = verifying_key_->verifier.last(stream.key) == wire::SigningTime{};
-    return !has_no_place && !verifying_key_->late.is_too_late(stream.key, stream.last, newest, mono_now());
+    const bool has_place = verifying_key_->verifier.last(stream.key) != wire::SigningTime{};
+    return has_place;
 }
 
 Signature::~Signature() {

@@ -232,7 +232,7 @@ std::shared_ptr<SharedKey> KeyStates::shared_key(const wire::SigningKey& key) {
     auto& known = shared_keys_[key.fingerprint()];
     auto shared = known.lock();
     if (shared) return shared;
-    known = shared = std::make_shared<SharedKey>(SharedKey{wire::Verifier(key), {}, {}, {}});
+    known = shared = std::make_shared<SharedKey>(SharedKey{wire::Verifier(key), {}, {}});
     for (const auto& file : files_) {
         if (file->state.key != key.fingerprint()) continue;
         for (const auto& stream : file->state.heard) shared->verifier.restore(stream);
@@ -241,12 +241,17 @@ std::shared_ptr<SharedKey> KeyStates::shared_key(const wire::SigningKey& key) {
     return shared;
 }
 
-void KeyStates::note_heard(const wire::FrameView& frame, MonoTime now) noexcept {
+void KeyStates::note_heard(const wire::FrameView& frame, WallTime time, MonoTime now) noexcept {
     if (!frame.is_signed()) return;
+    const auto sender = wire::Verifier::stream_of(frame).key;
+    compares_heard = false;
     for (const auto& [fingerprint, known] : shared_keys_) {
         const auto shared = known.lock();
-        if (shared && shared->heard.is_started() && shared->verifier.is_of_key(frame))
-            (void)shared->heard.hear(frame, now);
+        if (!shared || !shared->heard.is_started()) continue;
+        compares_heard = true;
+        if (!shared->verifier.is_of_key(frame)) continue;
+        const auto refused_until = shared->verifier.refused_until(sender, wire::SigningTime::from(time));
+        (void)shared->heard.hear(frame, now, refused_until);
     }
 }
 

@@ -73,7 +73,6 @@ private:
 // State that all endpoints with one key share, whichever file each loaded the key from.
 struct SharedKey {
     wire::Verifier verifier;
-    LateFrames late;
     OwnFrames own;
     HeardFrames heard;
 };
@@ -99,12 +98,12 @@ public:
     [[nodiscard]] std::shared_ptr<SharedKey> shared_key(const wire::SigningKey& key);
     // Call it for frames of endpoints without verify=. If such a frame is signed with the key of an endpoint with
     // verify=, that endpoint then knows that it was not the first to hear the frame.
-    void note_heard(const wire::FrameView& frame, MonoTime now) noexcept;
+    void note_heard(const wire::FrameView& frame, WallTime time, MonoTime now) noexcept;
     // Call it before signing the first frame with the key. An error if the key's times are used up.
     [[nodiscard]] static SetupResult<void> begin_signing(KeyFile& file);
     // Whether the endpoints are used like separate programs, so that one may hear what another has signed.
     bool endpoints_are_independent = false;
-    bool compares_heard = false;  // an endpoint with verify= was opened, so `note_heard` must be called
+    bool compares_heard = false;  // an endpoint with verify= is open, so `note_heard` must be called
     void add(const Signature& signature) { signatures_.push_back(&signature); }
     void remove(const Signature& signature) noexcept { std::erase(signatures_, &signature); }
 

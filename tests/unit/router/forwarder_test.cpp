@@ -88,11 +88,12 @@ struct ForwarderAtWork {
         EXPECT_TRUE(sut.add_link(LinkId{last}, at));
         return at;
     }
-    route::Verdict hears(std::uint32_t link, const Bytes& bytes) {
+    route::Verdict hears(std::uint32_t link, const Bytes& bytes, bool is_repeated = false) {
         links.sent.clear();
         const auto frame = wire::FrameView::unchecked(bytes);
         const auto* const info = dialect::default_dialect().wire_table().find(frame.id());
-        const link::RxFrame rx{frame, info, LinkId{link}, {}};
+        link::RxFrame rx{frame, info, LinkId{link}, {}};
+        rx.is_repeated = is_repeated;
         const auto decision = sut.decide(rx, sut.mark_of(rx));
         sut.deliver(rx, decision, *endpoints.at(link - 1));
         return decision.verdict;
@@ -158,6 +159,10 @@ TEST(Forwarder, VouchesOnlyForVerifiedFrames) {
     ASSERT_THAT(router.reached(), ElementsAre(1, 3));
     EXPECT_FALSE(router.links.sent[1].may_sign);
     EXPECT_EQ(router.sut.not_signed(), 1u);
+    router.hears(1, attitude(), true);
+    ASSERT_THAT(router.reached(), ElementsAre(2, 3));
+    EXPECT_FALSE(router.links.sent[1].may_sign);
+    EXPECT_EQ(router.sut.not_signed(), 2u);
 }
 
 TEST(Forwarder, AnEchoIsNoLoss) {
@@ -174,13 +179,13 @@ TEST(Forwarder, AnEchoIsNoLoss) {
 }
 
 // Whether a restart of the vehicle that shows on link 1 reaches the engine, which then forgets routes.
-bool restart_forgets_routes(std::string_view url, const route::Filter& in = {}) {
+bool restart_forgets_routes(std::string_view url, const route::Filter& in = {}, bool is_repeated = false) {
     ForwarderAtWork router;
     router.endpoint(url).policy.in = in;
     router.links.there.try_emplace(++router.last);
     EXPECT_TRUE(router.sut.add_link(LinkId{1}, *router.endpoints[0]));
     router.links.loss.verdict = Restart::reboot;
-    router.hears(1, attitude());
+    router.hears(1, attitude(), is_repeated);
     return router.sut.engine().counters().reboots.value() == 1;
 }
 
@@ -189,6 +194,7 @@ TEST(Forwarder, ARestartForgetsTheRoutesOfTheSystem) { EXPECT_TRUE(restart_forge
 TEST(Forwarder, WhatTeachesNoRouteForgetsNone) {
     EXPECT_FALSE(restart_forgets_routes("udpin://127.0.0.1:1?tap=true"));
     EXPECT_FALSE(restart_forgets_routes("udpin://127.0.0.1:1", route::test::make_filter({}, {.systems = {1}})));
+    EXPECT_FALSE(restart_forgets_routes("udpin://127.0.0.1:1?verify=key", {}, true));
 }
 
 TEST(Forwarder, TheOwnHeartbeatGoesToWhomTheRouterCalls) {
