@@ -57,6 +57,7 @@ struct Link {
     Sending sending = Sending::queued;
     Signature* signature = nullptr;
     LinkCounters counters;
+    std::uint64_t frames_repeated = 0;  // of frames_in: those that another endpoint had heard; see RxFrame::is_repeated
     // Frames from verified senders, and the program's own, use the first lane.
     net::LaneQueue queue;
     wire::SequenceTracker tracker;

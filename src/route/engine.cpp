@@ -10,6 +10,7 @@ namespace mavloom::route {
 
 static constexpr MessageId heartbeat_id{0};
 static constexpr ComponentId autopilot_component{1};  // MAV_COMP_ID_AUTOPILOT1
+static constexpr SystemId station{255};               // by convention
 
 Engine::Engine(const wire::MessageTable& table, const Options& options)
     : impl_(std::make_unique<Impl>(table, options)) {}
@@ -17,7 +18,9 @@ Engine::Engine(Engine&&) noexcept = default;
 Engine& Engine::operator=(Engine&&) noexcept = default;
 Engine::~Engine() = default;
 
-bool Engine::add_link(LinkId link, const LinkPolicy& policy) { return impl_->add_link(link, policy); }
+bool Engine::add_link(LinkId link, const LinkPolicy& policy, std::uint64_t address) {
+    return impl_->add_link(link, policy, address);
+}
 void Engine::remove_link(LinkId link) { impl_->remove_link(link); }
 void Engine::set_options(const Options& options) { impl_->set_options(options); }
 void Engine::set_group_orders(std::span<const GroupOrder> orders) { impl_->set_group_orders(orders); }
@@ -172,11 +175,14 @@ bool Engine::Impl::came_by_group(const Passage& p) noexcept {
 }
 
 // On a verified link, what unverified links brought does not count: somebody without a key may have repeated the frame
-// before it arrived here. A frame that no link brought was sent by the program itself.
+// before it arrived here. Frames from private links went nowhere, so they count only there. A frame that no link
+// brought was sent by the program itself.
 bool Engine::Impl::counts_as_heard(const Passage& p) noexcept {
-    if (!p.link.policy.is_verified) return true;
+    if (!p.link.policy.is_verified && !has_private_) return true;
     const Words heard = recent_.heard(p.recent);
-    return !any(heard, words_) || intersect(heard, verified_.data(), words_);
+    if (!any(heard, words_)) return true;
+    if (p.link.policy.is_verified && !intersect(heard, verified_.data(), words_)) return false;
+    return p.link.policy.is_private || !is_subset(heard, private_.data(), words_);
 }
 
 void Engine::Impl::remember(Passage& p, bool found) noexcept {
@@ -231,6 +237,7 @@ void Engine::Impl::learn(Passage& p) noexcept {
     if (p.info == nullptr || p.frame.system().value == 0) return;
     const bool is_elsewhere = has_other(routes_.links_of(p.frame.system()), p.slot, words_);
     if (is_elsewhere && !may_learn(p)) return;
+    if (departed_.any(p.now) && !may_return(p)) return;
     RouteTable::Change change;
     routes_.learn(p.slot, p.source, p.now, change);
     count_routes(change);
@@ -248,7 +255,7 @@ void Engine::Impl::learn_from_echo(const wire::FrameView& frame, const wire::Mes
         note_claim(p);
         return;
     }
-    if (!may_learn(p)) return;
+    if (!may_learn(p) || !may_return(p)) return;
     RouteTable::Change change;
     routes_.learn_from_echo(p.slot, p.source, p.now, change);
     count_routes(change);
@@ -296,39 +303,64 @@ bool Engine::Impl::may_learn(const Passage& p) noexcept {
         return true;
     }
     if (intersect(scratch_.data(), verified_.data(), words_)) return false;
-    if (has(where, p.slot)) return true;
+    if (system == station || is_alive_on(p.slot, system, p.now) || routes_.find(p.slot, p.source) != nullptr)
+        return true;
     const Slot first = where_alive(p, scratch_.data());
     return first == no_slot || is_consistent(p, first);
 }
 
 // Returns the link of `links` on which the system's autopilot is alive; no_slot if there is none.
 Slot Engine::Impl::where_alive(const Passage& p, ConstWords links_of_system) const noexcept {
-    const Pair autopilot = pair_of(Source{p.frame.system(), autopilot_component});
     Slot alive = no_slot;
     each(links_of_system, words_, [&](Slot slot) {
-        const Route* const route = routes_.find(slot, autopilot);
-        if (route != nullptr && p.now.time_since_epoch().count() - route->heard_ns < alive_for.count()) alive = slot;
+        if (is_alive_on(slot, p.frame.system(), p.now)) alive = slot;
     });
     return alive;
 }
 
-Engine::Impl::Claim& Engine::Impl::note_claim(const Passage& p) noexcept {
+// An echo counts too, if the link has also brought frames that were none: somebody may have predicted the heartbeats.
+bool Engine::Impl::is_alive_on(Slot slot, SystemId system, MonoTime now) const noexcept {
+    const Route* const route = routes_.find(slot, pair_of(Source{system, autopilot_component}));
+    return route != nullptr && route->known == Route::Known::yes &&
+           now.time_since_epoch().count() - route->last_ns() < alive_for.count();
+}
+
+Place Engine::Impl::place_of(const Link& link) noexcept {
+    return {link.policy.group, link.policy.endpoint, link.address, link.policy.is_verified};
+}
+
+bool Engine::Impl::may_return(const Passage& p) noexcept {
+    const SystemId system = p.frame.system();
+    const Place* const before = departed_.find(system, p.now);
+    if (before == nullptr) return true;
+    const Place here = place_of(p.link);
+    if (here.is_verified || here.is_same(*before)) {
+        departed_.forget(system);
+        return true;
+    }
+    if (!before->is_verified && (system == station || routes_.find(p.slot, p.source) != nullptr)) return true;
+    note_claim(p);
+    return false;
+}
+
+Engine::Impl::Claim* Engine::Impl::note_claim(const Passage& p) noexcept {
     const SystemId system = p.frame.system();
     auto claim = std::ranges::find(p.link.claims, system, &Claim::system);
     if (claim == p.link.claims.end()) {
         claim = std::ranges::min_element(p.link.claims, {}, &Claim::last);
+        if (claim->system != SystemId{} && p.now - claim->last < alive_for) return nullptr;
         *claim = {.system = system, .since = p.now, .last = p.now};
     }
     if (p.now - claim->last >= alive_for) claim->since = p.now;
     claim->last = p.now;
-    return *claim;
+    return claim;
 }
 
 // Returns true once the claim of this link to the system is old enough.
 bool Engine::Impl::is_consistent(const Passage& p, Slot first) noexcept {
-    Claim& claim = note_claim(p);
-    if (p.link.policy.learns_first || p.now - claim.since < consistent_for) return false;
-    claim = {};
+    Claim* const claim = note_claim(p);
+    if (claim == nullptr || p.link.policy.learns_first || p.now - claim->since < consistent_for) return false;
+    *claim = {};
     note_conflict(p, first);
     return true;
 }
@@ -470,9 +502,9 @@ void Engine::Impl::leave_out_origin(const Passage& p) noexcept {
 bool Engine::Impl::is_origin(Slot slot, const Passage& p) const noexcept {
     const Route* const there = present_route(slot, p);
     if (there == nullptr) return false;
+    if (p.is_directed) return false;
     const Route* const here = present_route(p.slot, p);
     if (here == nullptr) return true;
-    if (p.is_directed) return false;
     if (here->since_ns >= there->since_ns) return true;
     if (links[slot]->policy.learns_first) return false;
     return p.now.time_since_epoch().count() - there->since_ns >= consistent_for.count();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mavloom/route/engine.hpp"
+#include "route/departed.hpp"
 #include "route/egress_limiter.hpp"
 #include "route/link_set.hpp"
 #include "route/recent_frames.hpp"
@@ -20,7 +21,7 @@ class Engine::Impl {
 public:
     Impl(const wire::MessageTable& table, const Options& options);
 
-    bool add_link(LinkId id, const LinkPolicy& policy);
+    bool add_link(LinkId id, const LinkPolicy& policy, std::uint64_t address);
     void remove_link(LinkId id);
     void set_options(const Options& given);
     void set_group_orders(std::span<const GroupOrder> orders);
@@ -52,6 +53,7 @@ public:
     struct Link {
         LinkId id;
         LinkPolicy policy;
+        std::uint64_t address;
         EgressLimiter limiter;
         std::uint32_t group = no_group;    // index into groups_
         std::uint32_t family = no_family;  // index into families_
@@ -60,7 +62,7 @@ public:
         MonoTime last_heard{};
         std::uint32_t beats = 0;  // HEARTBEATs received, for `best`; see count_beats
         LinkCounters counters{};
-        std::array<Claim, 8> claims{};  // the oldest is replaced
+        std::array<Claim, 32> claims{};  // the oldest is replaced, unless it is recent
         Returns returns{};
         // A cache of the last long list of links to which frames from this link were sent.
         std::uint64_t listed_at = 0;  // links_version_ at that time; 0 if there is no list
@@ -148,8 +150,14 @@ private:
     // Whether the route of a frame may be learned. docs/design/security.md has the table of decisions.
     [[nodiscard]] bool may_learn(const Passage& p) noexcept;
     [[nodiscard]] Slot where_alive(const Passage& p, ConstWords links) const noexcept;
-    // Updates, and returns, the claim of this link to the system of the frame.
-    Claim& note_claim(const Passage& p) noexcept;
+    // The same for one link.
+    [[nodiscard]] bool is_alive_on(Slot slot, SystemId system, MonoTime now) const noexcept;
+    // Whether the frame's system, if its link went away a moment ago, may be learned on this link.
+    [[nodiscard]] bool may_return(const Passage& p) noexcept;
+    [[nodiscard]] static Place place_of(const Link& link) noexcept;
+    void note_departure(Slot slot);
+    // Updates, and returns, the claim of this link to the system of the frame; null if the link has no room for it.
+    Claim* note_claim(const Passage& p) noexcept;
     [[nodiscard]] bool is_consistent(const Passage& p, Slot first) noexcept;
     void note_conflict(const Passage& p, Slot first) noexcept;
     [[nodiscard]] bool is_origin(Slot slot, const Passage& p) const noexcept;
@@ -215,12 +223,13 @@ private:
     std::deque<Slot> resting_;       // the slots without a link, in the order in which they were left
     std::uint64_t links_version_ = 1;
     RouteTable routes_;
+    Departed departed_;
     RecentFrames recent_;
     std::vector<std::uint64_t> ordinary_, taps_, private_, limited_, verified_;  // sets of links
     std::vector<std::uint64_t> watched_;                                         // links on which an echo arrived
     std::vector<Group> groups_;
     std::vector<Family> families_;  // those without links are used again
-    bool has_taps_ = false, has_limits_ = false, has_watched_ = false;
+    bool has_taps_ = false, has_private_ = false, has_limits_ = false, has_watched_ = false;
     bool chooses_members_ = false;  // some group of at least two links is `best` or `primary`
     std::vector<OutFilter> filters_;
     ZeroedArray<Turns> turns_;            // by pair

@@ -48,12 +48,13 @@ void Engine::Impl::grow(std::size_t slots) {
     ids_.resize(slots);
 }
 
-bool Engine::Impl::add_link(LinkId id, const LinkPolicy& policy) {
+bool Engine::Impl::add_link(LinkId id, const LinkPolicy& policy, std::uint64_t address) {
     if (id.value == 0 || link_count >= max_links || slot_of(id) != no_slot) return false;
     const std::size_t words = words_;
     const Slot slot = free_slot();
     links[slot].reset(new Link{.id = id,
                                .policy = policy,
+                               .address = address,
                                .limiter = EgressLimiter(policy.max_rate, policy.max_bytes_per_s),
                                .filters_in = !policy.in.admits_all()});
     ids_[slot] = id;
@@ -72,6 +73,7 @@ bool Engine::Impl::add_link(LinkId id, const LinkPolicy& policy) {
 void Engine::Impl::remove_link(LinkId id) {
     const Slot slot = slot_of(id);
     if (slot == no_slot) return;
+    note_departure(slot);
     routes_.remove_link(slot);
     delist(slot);
     remove_from_index(slot);
@@ -82,6 +84,18 @@ void Engine::Impl::remove_link(LinkId id) {
     --link_count;
     if (has_empty_group()) rebuild();
     else note_links_changed();
+}
+
+// A vehicle on an unverified link keeps its place for as long as one that falls silent; on a verified link, until its
+// route would have timed out.
+void Engine::Impl::note_departure(Slot slot) {
+    const Place place = place_of(*links[slot]);
+    routes_.each_known(slot, [&](const Route& route) {
+        const SystemId system = source_of(route.pair).system;
+        const MonoTime last{Nanoseconds{route.last_ns()}};
+        if (place.is_verified) departed_.note(system, place, last + options.route_timeout, now_);
+        else if (is_alive_on(slot, system, now_)) departed_.note(system, place, last + alive_for, now_);
+    });
 }
 
 // Prefers a slot that has rested, then a new one. If many rest, takes the one that has rested longest.
@@ -188,6 +202,7 @@ void Engine::Impl::rebuild() {
 void Engine::Impl::note_links_changed() {
     ++links_version_;
     has_taps_ = any(taps_.data(), words_);
+    has_private_ = any(private_.data(), words_);
     has_limits_ = any(limited_.data(), words_);
     chooses_members_ = std::ranges::any_of(
         groups_, [](const Group& group) { return group.mode != GroupMode::all && group.order.size() > 1; });

@@ -44,6 +44,11 @@ inline bool intersect(ConstWords a, ConstWords b, std::size_t words) noexcept {
     each_word(words, [&](std::size_t w) { all |= a[w] & b[w]; });
     return all != 0;
 }
+inline bool is_subset(ConstWords a, ConstWords of, std::size_t words) noexcept {
+    std::uint64_t outside = 0;
+    each_word(words, [&](std::size_t w) { outside |= a[w] & ~of[w]; });
+    return outside == 0;
+}
 inline void assign(Words to, ConstWords from, std::size_t words) noexcept {
     each_word(words, [&](std::size_t w) { to[w] = from[w]; });
 }

@@ -40,10 +40,17 @@ void Forwarder::configure(const config::RouterConfig& config) {
     own_messages_.configure(config);
 }
 
+// A number for the far end of a link. The name of a peer ends with "#HOST:PORT"; when the peer connects again, it has
+// another port.
+static std::uint64_t address_of(std::string_view name) {
+    const bool is_peer = name.find('#') != std::string_view::npos;
+    return std::hash<std::string_view>{}(is_peer ? name.substr(0, name.rfind(':')) : name);
+}
+
 // The router sends its own messages neither to taps nor to the inlet: programs at the inlet read the ring, which does
 // not contain these messages.
 bool Forwarder::add_link(LinkId link, const RoutedEndpoint& endpoint) {
-    if (!engine_.add_link(link, endpoint.policy)) return false;
+    if (!engine_.add_link(link, endpoint.policy, address_of(links_.link_name(link)))) return false;
     if (!endpoint.policy.tap && !endpoint.is_inlet)
         own_messages_.add(link, wants_heartbeat(endpoint.endpoint), links_.now());
     return true;

@@ -192,8 +192,9 @@ public:
     Engine& operator=(Engine&&) noexcept;
     ~Engine();
 
-    // Returns false if there are max_links links already, or if the id is 0 or in use.
-    bool add_link(LinkId link, const LinkPolicy& policy);
+    // Returns false if there are max_links links already, or if the id is 0 or in use. `address` is a number for the
+    // far end, the same when it connects again; 0 if unknown. A vehicle that comes back there is learned at once.
+    bool add_link(LinkId link, const LinkPolicy& policy, std::uint64_t address = 0);
     // Forgets the link and its routes. Ignores an unknown id.
     void remove_link(LinkId link);
     [[nodiscard]] std::size_t links() const noexcept;

@@ -72,6 +72,7 @@ void Core::on_frame(Link& link, const wire::ParseEvent& event, WallTime time) {
     if (link.signature != nullptr && link.signature->verifies()) [[unlikely]] {
         if (!link.signature->accepts(event.frame, time)) return counters.bad_signature.add();
         is_repeated = link.signature->is_repeated();
+        link.frames_repeated += is_repeated ? 1 : 0;
     } else if (key_states.compares_heard) [[unlikely]] {
         key_states.note_heard(event.frame, time, now_);
     }

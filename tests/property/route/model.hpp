@@ -67,6 +67,7 @@ public:
         return true;
     }
     void remove(std::uint32_t id) {
+        if (const auto link = links_.find(id); link != links_.end()) note_departure(id, link->second.policy);
         links_.erase(id);
         std::erase_if(heard_, [&](const Heard& h) { return h.link == id; });
         for (Recent& r : recent_) {
@@ -147,6 +148,10 @@ private:
         MonoTime time;
         std::set<std::uint32_t> heard, sent;
     };
+    struct Departed {
+        ModelPolicy policy;
+        MonoTime until;
+    };
     using Why = std::map<std::uint32_t, Reason>;
     static constexpr std::uint32_t gone = ~std::uint32_t{0};  // in the place of a removed link
 
@@ -210,11 +215,15 @@ private:
         remembered = &recent_.back();
         return decide_unless_private(ingress, frame, why, {}, {});
     }
-    // On a verified link, copies that unverified links brought do not count.
+    // On a verified link, copies from unverified links do not count. Frames from private links count only there.
     [[nodiscard]] bool may_count(const Recent& r, const Link& link) const {
-        if (!link.policy.is_verified || r.heard.empty()) return true;
-        return std::ranges::any_of(r.heard,
-                                   [&](std::uint32_t id) { return id != gone && links_.at(id).policy.is_verified; });
+        if (r.heard.empty()) return true;
+        const auto some = [&](bool ModelPolicy::*kind, bool wanted) {
+            return std::ranges::any_of(
+                r.heard, [&](std::uint32_t id) { return (id != gone && links_.at(id).policy.*kind) == wanted; });
+        };
+        if (link.policy.is_verified && !some(&ModelPolicy::is_verified, true)) return false;
+        return link.policy.is_private || some(&ModelPolicy::is_private, false);
     }
 
     Verdict decide_unless_private(std::uint32_t ingress, const wire::FrameView& frame, Why& why,
@@ -267,7 +276,8 @@ private:
         if (is_repeated_ && !is_fresh(ingress, system, component)) return;
         if (links_[ingress].policy.group != 0) count_heartbeat(links_[ingress], frame, is_doubled(ingress, frame));
         links_[ingress].last_heard = now_;
-        if (system == 0 || info(frame) == nullptr || !may_learn(ingress, system)) return;
+        if (system == 0 || info(frame) == nullptr) return;
+        if (!may_learn(ingress, system, component) || !may_return(ingress, system, component)) return;
         const auto same = [&](const Heard& h) {
             return h.link == ingress && h.system == system && h.component == component;
         };
@@ -302,7 +312,7 @@ private:
             claim(link, system);
             return;
         }
-        if (!may_learn(ingress, system)) return;
+        if (!may_learn(ingress, system, component) || !may_return(ingress, system, component)) return;
         const auto same = [&](const Heard& h) {
             return h.link == ingress && h.system == system && h.component == component;
         };
@@ -326,7 +336,7 @@ private:
     }
 
     // A vehicle that is alive elsewhere is learned only after 5 s without a gap of 2 s. Verified links come first.
-    bool may_learn(std::uint32_t ingress, std::uint8_t system) {
+    bool may_learn(std::uint32_t ingress, std::uint8_t system, std::uint8_t component) {
         Link& link = links_[ingress];
         std::vector<std::uint32_t> others;
         for (const auto& [id, other] : links_)
@@ -339,16 +349,46 @@ private:
             return true;
         }
         if (std::ranges::any_of(others, is_verified)) return false;
-        if (is_fresh(ingress, system, -1)) return true;
-        const bool is_alive = std::ranges::any_of(heard_, [&](const Heard& h) {
-            return h.known && !h.only_echoes && in(others, h.link) && h.system == system && h.component == 1 &&
-                   now_ - h.time < std::chrono::seconds{2};
-        });
-        if (!is_alive) return true;
+        if (system == 255 || is_fresh(ingress, system, component) || is_alive({ingress}, system)) return true;
+        if (!is_alive(others, system)) return true;
         const Claim made = claim(link, system);
         if (link.policy.learns_first || now_ - made.since < std::chrono::seconds{5}) return false;
         link.claims.erase(system);
         return true;
+    }
+    // A vehicle whose link goes away keeps its place: for 2 s after it was heard last, or on a verified link until the
+    // route would have timed out.
+    void note_departure(std::uint32_t id, const ModelPolicy& policy) {
+        for (const Heard& h : heard_) {
+            if (h.link != id || !h.known || !(policy.is_verified || is_alive({id}, h.system))) continue;
+            const MonoTime until = h.last() + (policy.is_verified ? options_.route_timeout : std::chrono::seconds{2});
+            const auto known = departed_.find(h.system);
+            const bool is_kept = known != departed_.end() && known->second.until > now_;
+            const auto place = [](const ModelPolicy& of) { return std::tuple(of.group, of.endpoint, of.is_verified); };
+            const bool is_same = is_kept && (place(policy) == place(known->second.policy) ||
+                                             is_same_place({policy}, {known->second.policy}));
+            if (until <= now_ || (is_kept && !is_same && !policy.is_verified)) continue;
+            departed_[h.system] = {policy, is_same ? std::max(until, known->second.until) : until};
+        }
+    }
+    bool may_return(std::uint32_t ingress, std::uint8_t system, std::uint8_t component) {
+        const auto known = departed_.find(system);
+        if (known == departed_.end() || known->second.until <= now_) return true;
+        Link& link = links_[ingress];
+        if (link.policy.is_verified || is_same_place(link, {known->second.policy})) {
+            departed_.erase(known);
+            return true;
+        }
+        if (!known->second.policy.is_verified && (system == 255 || is_fresh(ingress, system, component))) return true;
+        claim(link, system);
+        return false;
+    }
+    // Whether the autopilot was heard on one of the links in the last 2 s. Its echoes count as well.
+    [[nodiscard]] bool is_alive(const std::vector<std::uint32_t>& links, std::uint8_t system) const {
+        return std::ranges::any_of(heard_, [&](const Heard& h) {
+            return h.known && !h.only_echoes && in(links, h.link) && h.system == system && h.component == 1 &&
+                   now_ - h.last() < std::chrono::seconds{2};
+        });
     }
     Claim claim(Link& link, std::uint8_t system) const {
         Claim& claim = link.claims.try_emplace(system, Claim{now_, now_}).first->second;
@@ -370,8 +410,8 @@ private:
 
     bool is_origin(std::uint32_t link, std::uint32_t ingress, const wire::FrameView& frame, bool is_directed) {
         const auto since = present_since(link, frame), here = present_since(ingress, frame);
-        if (!since || !here) return since.has_value();
-        if (is_directed) return false;
+        if (!since || is_directed) return false;
+        if (!here) return true;
         if (*here >= *since) return true;
         if (links_[link].policy.learns_first) return false;
         return now_ - *since >= std::chrono::seconds{5};
@@ -519,6 +559,7 @@ private:
     std::map<std::uint32_t, Link> links_;
     std::map<std::uint32_t, GroupMode> group_modes_;  // the first link of a group decides
     std::map<std::uint32_t, std::uint32_t> current_;  // of a `best` group
+    std::map<std::uint8_t, Departed> departed_;       // by system
     std::vector<Heard> heard_;
     std::vector<Recent> recent_;
     std::vector<Recent> beats_;  // HEARTBEATs of groups

@@ -215,6 +215,31 @@ def test_a_copy_of_a_signed_frame_proves_nothing(scheme, spawn, run, key, udp_po
         wait_for(lambda: "guarded" in where(), what="the route that a new frame teaches")
 
 
+def test_a_client_that_sends_only_copies_counts_as_silent(spawn, run, key, udp_port, tcp_port, udp_socket, wait_for):
+    radio, port, options = udp_port(), tcp_port(), f"verify={key}&group=vehicle"
+    name = f"signing-{radio}"
+    router = spawn("route", f"udpin://127.0.0.1:{radio}?{options}",
+                   f"tcpin://127.0.0.1:{port}?name=clients&max_peers=1&{options}", "--name", name)
+    router.wait_output("clients: ")
+    vehicle, sender, newcomer = udp_socket(), Signer(), Signer()
+    newcomer.mav.srcSystem = 2
+
+    def links():
+        return list(map(json.loads, run("ctl", name, "links").lines))
+
+    def heard_from_clients(count):
+        return any(o["link"].startswith("clients#") and o["frames_in"] == count for o in links())
+
+    with connected("tcpin", port) as copier:
+        vehicle.sendto(frame := sender.heartbeat(ticks()), ("127.0.0.1", radio))
+        wait_for(lambda: any(o["frames_in"] for o in links()), what="the frame")
+        copier.send(frame)
+        wait_for(lambda: heard_from_clients(1), what="the copy")
+        with connected("tcpin", port) as other:
+            other.send(newcomer.heartbeat(ticks()) + newcomer.heartbeat(ticks() + 1))
+            wait_for(lambda: heard_from_clients(2), what="the newcomer's frames")
+
+
 def test_a_client_that_sends_back_what_the_router_signed_proves_nothing(spawn, run, key, udp_port, tcp_port,
                                                                         udp_socket, wait_for):
     near, port, options = udp_port(), tcp_port(), f"verify={key}&sign={key}"

@@ -274,6 +274,17 @@ TEST(Engine, DuplicateOnAnotherLinkIsDroppedAndTeachesItsRoute) {
     EXPECT_EQ(sut.engine.routes(sut.now)[1].frames, 3u);
 }
 
+TEST(Engine, AFrameOfAPrivateLinkIsNoDuplicateElsewhere) {
+    Network sut({.dedup = 250ms});
+    sut.link({.is_private = true});
+    sut.links(2);
+    const Bytes frame = make_frame("ATTITUDE", vehicle);
+    ASSERT_THAT(sut.pass(1, frame), IsEmpty());
+
+    EXPECT_THAT(sut.pass(2, frame), ElementsAre(3));
+    EXPECT_THAT(sut.pass(3, frame), IsEmpty());
+}
+
 TEST(Engine, DedupEndsWithItsWindow) {
     Network sut({.dedup = 250ms});
     sut.links(2);

@@ -57,6 +57,20 @@ TEST_F(Predicted, AKnownVehicleKeepsItsRouteAlsoWithLearnFirst) {
     EXPECT_THAT(command(), Contains(2));
 }
 
+TEST_F(Predicted, AVehicleThatBeganItselfIsAlive) {
+    sut.link({.learns_first = true});
+    sut.links(2);
+    sut.pass(2, beat(0));
+    for (std::uint8_t second = 1; second < 60; ++second) {
+        sut.pass(1, beat(second));
+        sut.wait(1s);
+        sut.pass(2, beat(second));
+    }
+    ASSERT_EQ(sut.counters(2).echo.value(), 59u) << "the case of this test";
+
+    EXPECT_THAT(command(), ElementsAre(2));
+}
+
 TEST_F(Predicted, FramesOfAnEchoedSenderStillGoToTheLink) {
     sut.links(3);
     for (std::uint8_t second = 0; second < 8; ++second) one_second(second);

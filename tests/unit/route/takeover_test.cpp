@@ -68,6 +68,41 @@ TEST_F(Takeover, AnotherComponentOfALiveVehicleWaitsToo) {
     EXPECT_THAT(sut.command(3, gcs, {1, 77}), ElementsAre(1)) << "unknown, so it goes where the system is";
 }
 
+TEST_F(Takeover, AComponentThatCameFirstDoesNotStandForTheAutopilot) {
+    sut.links(3);
+    sut.hears(2, {1, 250});
+    sut.wait(10s);
+    only(1, 1s);
+
+    sut.hears(2, vehicle);
+    EXPECT_THAT(command(), ElementsAre(1));
+}
+
+TEST_F(Takeover, ANewComponentOfTheVehicleIsLearnedAtOnce) {
+    sut.links(3);
+    only(1, 1s);
+    both_send(6s);
+
+    sut.hears(1, {1, 154});
+    EXPECT_THAT(sut.command(3, gcs, {1, 154}), ElementsAre(1));
+}
+
+// A link claims up to 32 vehicles at once.
+TEST_F(Takeover, FortyVehiclesOfOneLinkGetTheirCommandsBack) {
+    sut.links(3);
+    const auto all_send = [&](std::uint32_t link) {
+        for (std::uint8_t system = 1; system <= 40; ++system) sut.wait(1ms).hears(link, {system, 1});
+    };
+    for (int i = 0; i < 120; ++i) {
+        all_send(2);
+        if (i > 0) all_send(1);
+        sut.wait(100ms);
+    }
+
+    for (std::uint8_t system = 1; system <= 40; ++system)
+        EXPECT_THAT(sut.command(3, gcs, {system, 1}), ElementsAre(1, 2)) << int{system};
+}
+
 TEST_F(Takeover, AGapOfTwoSecondsStartsTheFiveSecondsAgain) {
     sut.links(3);
     only(1, 1s);
@@ -147,6 +182,16 @@ TEST_F(Takeover, TwoGroundStationsWithOneIdAreBothFedAndBothAnswered) {
     EXPECT_THAT(sut.send(3, "ATTITUDE", vehicle), ElementsAre(1, 2));
 }
 
+TEST_F(Takeover, AGroundStationIsAnsweredAlsoIfSomebodyClaimsThatItIsAVehicle) {
+    sut.link();
+    sut.links(2, {.learns_first = true});
+    sut.hears(1, vehicle);
+    sut.settles(2, {255, 1});
+    sut.hears(3, gcs);
+
+    EXPECT_THAT(sut.command(1, vehicle, gcs), ElementsAre(3));
+}
+
 TEST_F(Takeover, AForgedRestartForgetsNothingOnOtherLinks) {
     sut.links(3);
     only(1, 1s);
@@ -191,6 +236,14 @@ TEST_F(ForgedStation, KeepsNoCommandsFromTheVehicleHoweverLong) {
         fly(1s, true);
         EXPECT_THAT(command(), ElementsAre(1)) << i;
     }
+}
+
+TEST_F(ForgedStation, KeepsNoCommandsOfANewLinkFromTheVehicle) {
+    sut.links(3);
+    fly(3s, true);
+    sut.link();
+
+    EXPECT_THAT(sut.command(4, gcs, vehicle), ElementsAre(1));
 }
 
 TEST_F(ForgedStation, KeepsNoBroadcastsFromTheVehicleForFiveSeconds) {

@@ -197,6 +197,25 @@ TEST(Forwarder, WhatTeachesNoRouteForgetsNone) {
     EXPECT_FALSE(restart_forgets_routes("udpin://127.0.0.1:1?verify=key", {}, true));
 }
 
+// Where a command for a vehicle goes that lost its connection, and comes again from this host.
+std::vector<std::uint32_t> reached_after_reconnect_from(std::string_view host_and_port) {
+    ForwarderAtWork router;
+    router.links.names[1] = "tcp#10.0.0.1:1000";  // of the links 1 and 5
+    for (int i = 0; i < 4; ++i) router.link();
+    router.hears(1, attitude());
+    router.sut.remove_link(LinkId{1});
+    router.links.names[1] = host_and_port;
+    router.link();
+    router.hears(5, attitude());
+    router.hears(2, command(vehicle));
+    return router.reached();
+}
+
+TEST(Forwarder, AVehicleThatConnectsAgainFromItsHostIsBackAtOnce) {
+    EXPECT_THAT(reached_after_reconnect_from("tcp#10.0.0.1:1001"), ElementsAre(5));
+    EXPECT_THAT(reached_after_reconnect_from("tcp#10.0.0.2:1000"), IsEmpty());
+}
+
 TEST(Forwarder, TheOwnHeartbeatGoesToWhomTheRouterCalls) {
     ForwarderAtWork router({.heartbeat = std::pair<std::uint8_t, std::uint8_t>{255, 193}});
     router.link("udpout://127.0.0.1:1");
