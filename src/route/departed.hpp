@@ -19,7 +19,6 @@ struct Place {
     std::uint64_t address = 0;
     bool is_verified = false;
 
-    friend bool operator==(const Place&, const Place&) = default;
     // The unverified peers of one endpoint may be different senders, even in a group.
     [[nodiscard]] bool is_same(const Place& other) const noexcept {
         if (address != 0 && address == other.address) return true;
@@ -33,7 +32,7 @@ public:
     // The link at this place is gone. It brought the system, which keeps its place until the time `until`.
     void note(SystemId system, const Place& place, MonoTime until, MonoTime now) noexcept {
         Vehicle& known = vehicles_[system.value];
-        const bool is_same = known.until > now && (known.place == place || known.place.is_same(place));
+        const bool is_same = known.until > now && known.place.is_same(place);
         const bool is_taken = known.until > now && !is_same && !place.is_verified;
         if (is_taken || until <= now) return;
         known = {place, is_same ? std::max(known.until, until) : until};

@@ -20,6 +20,7 @@ bool Engine::add_link(LinkId link, const LinkPolicy& policy, std::uint64_t addre
     return impl_->add_link(link, policy, address);
 }
 void Engine::remove_link(LinkId link) { impl_->remove_link(link); }
+void Engine::forget_departed() noexcept { impl_->forget_departed(); }
 void Engine::set_options(const Options& options) { impl_->set_options(options); }
 void Engine::set_group_orders(std::span<const GroupOrder> orders) { impl_->set_group_orders(orders); }
 std::size_t Engine::links() const noexcept { return impl_->link_count; }
@@ -330,14 +331,13 @@ void Engine::Impl::leave_out_origin(const Passage& p) noexcept {
 
 // Whether the link has the frame's source itself, and so does not need the frame. A forger there may claim to be the
 // source. If the source was first present on the link that brought the frame, the claim counts only after
-// `consistent_for`, and never for targeted frames or with learn=first. Such frames go round no loop of routers, because
-// each router remembers them.
+// `consistent_for`, and never for targeted frames or with learn=first.
 bool Engine::Impl::is_origin(Slot slot, const Passage& p) const noexcept {
     const Route* const there = present_route(slot, p);
     if (there == nullptr) return false;
-    if (p.is_directed) return false;
     const Route* const here = present_route(p.slot, p);
     if (here == nullptr) return true;
+    if (p.is_directed) return false;
     if (here->since_ns >= there->since_ns) return true;
     if (links[slot]->policy.learns_first) return false;
     return p.now.time_since_epoch().count() - there->since_ns >= consistent_for.count();

@@ -23,6 +23,7 @@ public:
 
     bool add_link(LinkId id, const LinkPolicy& policy, std::uint64_t address);
     void remove_link(LinkId id);
+    void forget_departed() noexcept { departed_ = {}; }
     void set_options(const Options& given);
     void set_group_orders(std::span<const GroupOrder> orders);
     [[nodiscard]] std::uint64_t mark_of(const wire::FrameView& frame) const noexcept;
@@ -42,6 +43,7 @@ public:
     struct Claim {
         SystemId system{};  // 0: none
         MonoTime since{}, last{};
+        bool is_reported = false;  // as a conflict
     };
     // Of a link on which an echo arrived: whether frames that are sent to it come back. A link that sends everything
     // back brings frames of all systems. A vehicle whose heartbeats somebody predicted brings those of its own.
@@ -150,14 +152,21 @@ private:
     // Whether the route of a frame may be learned. docs/design/security.md has the table of decisions.
     [[nodiscard]] bool may_learn(const Passage& p) noexcept;
     [[nodiscard]] Slot where_alive(const Passage& p, ConstWords links) const noexcept;
-    // The same for one link.
+    // Whether the system's autopilot is alive on the link.
     [[nodiscard]] bool is_alive_on(Slot slot, SystemId system, MonoTime now) const noexcept;
     // Whether the frame's system, if its link went away a moment ago, may be learned on this link.
     [[nodiscard]] bool may_return(const Passage& p) noexcept;
     [[nodiscard]] static Place place_of(const Link& link) noexcept;
     void note_departure(Slot slot);
+    // Whether the system's autopilot is alive on the link, and was there for at least `consistent_for`.
+    [[nodiscard]] bool has_settled(Slot slot, SystemId system) const noexcept;
+    [[nodiscard]] static Pair autopilot_of(SystemId system) noexcept {
+        return pair_of({system, ComponentId{1}});  // MAV_COMP_ID_AUTOPILOT1
+    }
     // Updates, and returns, the claim of this link to the system of the frame; null if the link has no room for it.
     Claim* note_claim(const Passage& p) noexcept;
+    // Whether the claim is old enough to be believed. It may be null.
+    [[nodiscard]] static bool is_old(const Claim* claim, const Passage& p) noexcept;
     [[nodiscard]] bool is_consistent(const Passage& p, Slot first) noexcept;
     void note_conflict(const Passage& p, Slot first) noexcept;
     [[nodiscard]] bool is_origin(Slot slot, const Passage& p) const noexcept;

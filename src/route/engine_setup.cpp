@@ -86,16 +86,23 @@ void Engine::Impl::remove_link(LinkId id) {
     else note_links_changed();
 }
 
-// A vehicle on an unverified link keeps its place for as long as one that falls silent; on a verified link, until its
-// route would have timed out.
+// A vehicle on a verified link keeps its place until its route would have timed out. On an unverified link it keeps it
+// for as long as one that falls silent, if it had the link for some time: else anybody could connect, claim to be the
+// vehicle and leave, again and again.
 void Engine::Impl::note_departure(Slot slot) {
     const Place place = place_of(*links[slot]);
     routes_.each_known(slot, [&](const Route& route) {
         const SystemId system = source_of(route.pair).system;
         const MonoTime last{Nanoseconds{route.last_ns()}};
         if (place.is_verified) departed_.note(system, place, last + options.route_timeout, now_);
-        else if (is_alive_on(slot, system, now_)) departed_.note(system, place, last + alive_for, now_);
+        else if (has_settled(slot, system)) departed_.note(system, place, last + alive_for, now_);
     });
+}
+
+bool Engine::Impl::has_settled(Slot slot, SystemId system) const noexcept {
+    const Route* const autopilot = routes_.find(slot, autopilot_of(system));
+    return is_alive_on(slot, system, now_) &&
+           now_.time_since_epoch().count() - autopilot->since_ns >= consistent_for.count();
 }
 
 // Prefers a slot that has rested, then a new one. If many rest, takes the one that has rested longest.

@@ -2,13 +2,13 @@
 // Engine: which routes are believed. Without a key, nobody can prove an identity. So the rules favour the link that
 // heard a vehicle first, and links whose frames are verified. docs/design/security.md, "Who is believed".
 #include <algorithm>
+#include <utility>
 
 #include "route/engine_impl.hpp"
 
 namespace mavloom::route {
 
-static constexpr ComponentId autopilot_component{1};  // MAV_COMP_ID_AUTOPILOT1
-static constexpr SystemId station{255};               // by convention
+static constexpr SystemId station{255};  // by convention
 
 // An echo does not make its sender present or alive here, so frames of the sender still go to this link.
 void Engine::Impl::learn_from_echo(const wire::FrameView& frame, const wire::MessageInfo* info, Slot slot) noexcept {
@@ -67,10 +67,10 @@ bool Engine::Impl::may_learn(const Passage& p) noexcept {
         return true;
     }
     if (intersect(scratch_.data(), verified_.data(), words_)) return false;
-    if (system == station || is_alive_on(p.slot, system, p.now) || routes_.find(p.slot, p.source) != nullptr)
-        return true;
+    if (system == station || is_alive_on(p.slot, system, p.now)) return true;
     const Slot first = where_alive(p, scratch_.data());
-    return first == no_slot || is_consistent(p, first);
+    if (first == no_slot) return true;
+    return is_consistent(p, first) || routes_.find(p.slot, p.source) != nullptr;
 }
 
 // Returns the link of `links` on which the system's autopilot is alive; no_slot if there is none.
@@ -82,11 +82,15 @@ Slot Engine::Impl::where_alive(const Passage& p, ConstWords links_of_system) con
     return alive;
 }
 
-// An echo counts too, if the link has also brought frames that were none: somebody may have predicted the heartbeats.
+// An echo counts too if the link also brought frames that were none, and sends back no other system: then somebody may
+// have predicted the heartbeats.
 bool Engine::Impl::is_alive_on(Slot slot, SystemId system, MonoTime now) const noexcept {
-    const Route* const route = routes_.find(slot, pair_of(Source{system, autopilot_component}));
-    return route != nullptr && route->known == Route::Known::yes &&
-           now.time_since_epoch().count() - route->last_ns() < alive_for.count();
+    const Route* const route = routes_.find(slot, autopilot_of(system));
+    if (route == nullptr || route->known != Route::Known::yes) return false;
+    const auto& returned = links[slot]->returns.systems;
+    const bool echoes_count = !has_other(returned.data(), system.value, returned.size());
+    const std::int64_t last = echoes_count ? route->last_ns() : route->heard_ns;
+    return now.time_since_epoch().count() - last < alive_for.count();
 }
 
 Place Engine::Impl::place_of(const Link& link) noexcept {
@@ -102,9 +106,10 @@ bool Engine::Impl::may_return(const Passage& p) noexcept {
         departed_.forget(system);
         return true;
     }
-    if (!before->is_verified && (system == station || routes_.find(p.slot, p.source) != nullptr)) return true;
-    note_claim(p);
-    return false;
+    if (system == station) return true;
+    const Claim* const claim = note_claim(p);
+    if (before->is_verified) return false;
+    return is_old(claim, p) || routes_.find(p.slot, p.source) != nullptr;
 }
 
 Engine::Impl::Claim* Engine::Impl::note_claim(const Passage& p) noexcept {
@@ -115,17 +120,19 @@ Engine::Impl::Claim* Engine::Impl::note_claim(const Passage& p) noexcept {
         if (claim->system != SystemId{} && p.now - claim->last < alive_for) return nullptr;
         *claim = {.system = system, .since = p.now, .last = p.now};
     }
-    if (p.now - claim->last >= alive_for) claim->since = p.now;
+    if (p.now - claim->last >= alive_for) *claim = {.system = system, .since = p.now};
     claim->last = p.now;
     return claim;
 }
 
-// Returns true once the claim of this link to the system is old enough.
+bool Engine::Impl::is_old(const Claim* claim, const Passage& p) noexcept {
+    return claim != nullptr && !p.link.policy.learns_first && p.now - claim->since >= consistent_for;
+}
+
 bool Engine::Impl::is_consistent(const Passage& p, Slot first) noexcept {
     Claim* const claim = note_claim(p);
-    if (claim == nullptr || p.link.policy.learns_first || p.now - claim->since < consistent_for) return false;
-    *claim = {};
-    note_conflict(p, first);
+    if (!is_old(claim, p)) return false;
+    if (!std::exchange(claim->is_reported, true)) note_conflict(p, first);
     return true;
 }
 

@@ -27,6 +27,7 @@ bool Router::remove(std::string_view label) {
     for (const auto& link : links_->links())
         if (link.endpoint == endpoint->id) forget_link(link.id);
     endpoints_->remove(*endpoint);
+    forwarder_->forget_departed();
     return true;
 }
 
@@ -35,6 +36,7 @@ bool Router::close_link(std::string_view name) {
     const auto link = std::ranges::find(links, name, &link::LinkInfo::name);
     if (link == links.end() || !links_->close(link->id)) return false;
     forget_link(link->id);
+    forwarder_->forget_departed();
     return true;
 }
 

@@ -115,7 +115,6 @@ private:
     [[nodiscard]] static wire::FrameView signed_for(Link& link, const wire::FrameView& frame);
     static bool queue(Link& link, net::BlockQueue& lane, OutgoingFrame& outgoing, const wire::FrameView& frame,
                       MonoTime now);
-    // A frame of an endpoint without verify= may come again on one with verify=.
     void on_frame(Link& link, const wire::ParseEvent& event, WallTime time);
     void on_bad_bytes(Link& link, const wire::ParseEvent& event);
     void run_tickers();

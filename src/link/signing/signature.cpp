@@ -81,8 +81,7 @@ bool Signature::takes_in_group(const wire::FrameView& frame, wire::SigningTime n
     if (own_->verify(frame, now) != wire::Verifier::Verdict::good) return false;
     const auto stream = wire::Verifier::stream_of(frame);
     verifying_key_->verifier.restore(stream);
-    const bool has_place = verifying_key_->verifier.last(stream.key) != wire::SigningTime{};
-    return has_place;
+    return verifying_key_->verifier.last(stream.key) != wire::SigningTime{};  // else there was no place for the sender
 }
 
 Signature::~Signature() {

@@ -103,7 +103,7 @@ public:
     [[nodiscard]] static SetupResult<void> begin_signing(KeyFile& file);
     // Whether the endpoints are used like separate programs, so that one may hear what another has signed.
     bool endpoints_are_independent = false;
-    bool compares_heard = false;  // an endpoint with verify= is open, so `note_heard` must be called
+    bool compares_heard = false;  // some endpoint verifies, so `note_heard` must be called
     void add(const Signature& signature) { signatures_.push_back(&signature); }
     void remove(const Signature& signature) noexcept { std::erase(signatures_, &signature); }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Counts the clients of a tcpin that have not talked yet, by their addresses. When the endpoint is full, one from the
-// address with most of them makes room. So a client that connects again and again keeps out only those that share its
-// address. An address cannot be forged, because a TCP connection needs answers. Private to module link; single owner
-// thread.
+// Counts the clients of a tcpin that have sent no good frame yet, by their addresses. When the endpoint is full, one
+// from the address with most of them makes room. So a client that connects again and again keeps out only those that
+// share its address. An address cannot be forged, because a TCP connection needs answers. Private to module link;
+// single owner thread.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace mavloom::link::detail {
 
-// `Peer` has a `host` (Address::host_part), `has_talked` and `silent_since`.
+// `Peer` has a `host` (Address::host_part), `is_silent` and `silent_since`.
 template <class Peer>
 class Crowds {
 public:
@@ -28,11 +28,11 @@ public:
     // The peers must outlive the object. Allocates.
     explicit Crowds(const std::vector<Peer*>& peers) {
         for (Peer* const peer : peers)
-            if (!peer->has_talked()) add(*peer);
+            if (peer->is_silent()) add(*peer);
     }
 
-    // Returns the largest crowd; of several such, the one with the longest silent peer. Its size is 0 if all peers have
-    // talked.
+    // Returns the largest crowd; of several such, the one with the longest silent peer. Its size is 0 if no peer is
+    // silent.
     [[nodiscard]] Crowd largest() const {
         Crowd found;
         for (const auto& [host, crowd] : crowds_)

@@ -36,7 +36,8 @@ public:
         owner_.on_closed(*this, why);
     }
 
-    // A client talks from its first good frame on that is no copy. Until then it counts as silent since it connected.
+    // A client that has sent no good frame is the first to make room, then one that has sent only copies.
+    [[nodiscard]] bool is_silent() const noexcept { return counters.frames_in.value() == 0; }
     [[nodiscard]] bool has_talked() const noexcept { return counters.frames_in.value() != frames_repeated; }
     [[nodiscard]] MonoTime silent_since() const noexcept { return has_talked() ? last_heard : connected_at; }
     MonoTime connected_at{};

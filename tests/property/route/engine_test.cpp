@@ -145,10 +145,11 @@ public:
     }
 
 private:
-    void add_link(const ModelPolicy& policy) {
+    void add_link(ModelPolicy policy) {
         const LinkId id{++last_};
-        RC_ASSERT(routing_.add_link(id, compiled(policy)));
-        RC_ASSERT(explaining_.add_link(id, compiled(policy)));
+        policy.address = 1 + last_ % 6;  // a link that went may come back
+        RC_ASSERT(routing_.add_link(id, compiled(policy), policy.address));
+        RC_ASSERT(explaining_.add_link(id, compiled(policy), policy.address));
         model_.add(last_, policy);
     }
 

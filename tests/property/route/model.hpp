@@ -22,6 +22,7 @@ struct ModelPolicy {
     GroupMode mode = GroupMode::all;
     std::uint32_t order = 0;
     std::uint32_t endpoint = 0;
+    std::uint64_t address = 0;
     bool tap = false, is_private = false, is_verified = false, learns_first = false;
     std::optional<Nanoseconds> attitude_interval{}, other_interval{};
     std::optional<std::uint64_t> bytes_per_s{};
@@ -349,46 +350,55 @@ private:
             return true;
         }
         if (std::ranges::any_of(others, is_verified)) return false;
-        if (system == 255 || is_fresh(ingress, system, component) || is_alive({ingress}, system)) return true;
-        if (!is_alive(others, system)) return true;
-        const Claim made = claim(link, system);
-        if (link.policy.learns_first || now_ - made.since < std::chrono::seconds{5}) return false;
-        link.claims.erase(system);
-        return true;
+        if (system == 255 || is_alive({ingress}, system) || !is_alive(others, system)) return true;
+        const bool is_old = now_ - claim(link, system).since >= std::chrono::seconds{5};
+        return (is_old && !link.policy.learns_first) || is_fresh(ingress, system, component);
     }
     // A vehicle whose link goes away keeps its place: for 2 s after it was heard last, or on a verified link until the
     // route would have timed out.
     void note_departure(std::uint32_t id, const ModelPolicy& policy) {
         for (const Heard& h : heard_) {
-            if (h.link != id || !h.known || !(policy.is_verified || is_alive({id}, h.system))) continue;
+            if (h.link != id || !h.known || !(policy.is_verified || has_settled(id, h.system))) continue;
             const MonoTime until = h.last() + (policy.is_verified ? options_.route_timeout : std::chrono::seconds{2});
             const auto known = departed_.find(h.system);
             const bool is_kept = known != departed_.end() && known->second.until > now_;
-            const auto place = [](const ModelPolicy& of) { return std::tuple(of.group, of.endpoint, of.is_verified); };
-            const bool is_same = is_kept && (place(policy) == place(known->second.policy) ||
-                                             is_same_place({policy}, {known->second.policy}));
+            const bool is_same = is_kept && leads_to(policy, known->second.policy);
             if (until <= now_ || (is_kept && !is_same && !policy.is_verified)) continue;
             departed_[h.system] = {policy, is_same ? std::max(until, known->second.until) : until};
         }
+    }
+    [[nodiscard]] bool has_settled(std::uint32_t link, std::uint8_t system) const {
+        return is_alive({link}, system) && std::ranges::any_of(heard_, [&](const Heard& h) {
+                   return h.link == link && h.system == system && h.component == 1 &&
+                          now_ - h.since >= std::chrono::seconds{5};
+               });
+    }
+    static bool leads_to(const ModelPolicy& link, const ModelPolicy& departed) {
+        return link.address == departed.address || is_same_place({link}, {departed});
     }
     bool may_return(std::uint32_t ingress, std::uint8_t system, std::uint8_t component) {
         const auto known = departed_.find(system);
         if (known == departed_.end() || known->second.until <= now_) return true;
         Link& link = links_[ingress];
-        if (link.policy.is_verified || is_same_place(link, {known->second.policy})) {
+        if (link.policy.is_verified || leads_to(link.policy, known->second.policy)) {
             departed_.erase(known);
             return true;
         }
-        if (!known->second.policy.is_verified && (system == 255 || is_fresh(ingress, system, component))) return true;
-        claim(link, system);
-        return false;
+        if (system == 255) return true;
+        const bool is_old = now_ - claim(link, system).since >= std::chrono::seconds{5};
+        if (known->second.policy.is_verified) return false;
+        return (is_old && !link.policy.learns_first) || is_fresh(ingress, system, component);
     }
-    // Whether the autopilot was heard on one of the links in the last 2 s. Its echoes count as well.
+    // Whether the autopilot was heard on one of the links in the last 2 s. Its echoes count as well, if the link sends
+    // back no other system.
     [[nodiscard]] bool is_alive(const std::vector<std::uint32_t>& links, std::uint8_t system) const {
         return std::ranges::any_of(heard_, [&](const Heard& h) {
             return h.known && !h.only_echoes && in(links, h.link) && h.system == system && h.component == 1 &&
-                   now_ - h.last() < std::chrono::seconds{2};
+                   now_ - (returns_others(h.link, system) ? h.time : h.last()) < std::chrono::seconds{2};
         });
+    }
+    [[nodiscard]] bool returns_others(std::uint32_t link, std::uint8_t system) const {
+        return std::ranges::any_of(links_.at(link).returned, [&](auto other) { return other != system; });
     }
     Claim claim(Link& link, std::uint8_t system) const {
         Claim& claim = link.claims.try_emplace(system, Claim{now_, now_}).first->second;
@@ -410,8 +420,8 @@ private:
 
     bool is_origin(std::uint32_t link, std::uint32_t ingress, const wire::FrameView& frame, bool is_directed) {
         const auto since = present_since(link, frame), here = present_since(ingress, frame);
-        if (!since || is_directed) return false;
-        if (!here) return true;
+        if (!since || !here) return since.has_value();
+        if (is_directed) return false;
         if (*here >= *since) return true;
         if (links_[link].policy.learns_first) return false;
         return now_ - *since >= std::chrono::seconds{5};

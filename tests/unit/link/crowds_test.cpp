@@ -13,7 +13,7 @@ struct CrowdMember {
     net::Address host;
     int connected_at;
     bool talks;
-    [[nodiscard]] bool has_talked() const { return talks; }
+    [[nodiscard]] bool is_silent() const { return !talks; }
     [[nodiscard]] MonoTime silent_since() const { return MonoTime{std::chrono::seconds{connected_at}}; }
 };
 

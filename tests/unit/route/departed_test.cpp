@@ -13,6 +13,7 @@ using namespace std::chrono_literals;
 using test::gcs;
 using test::Network;
 using test::vehicle;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
@@ -27,10 +28,9 @@ protected:
         connect(1, policy, home);
         connect(2, {}, elsewhere);
         connect(3);
-        for (int i = 0; i < 10; ++i) {
+        for (int i = 0; i <= 50; ++i) {
             sut.wait(100ms);
             sut.hears(1, vehicle);
-            sut.hears(2, vehicle);
         }
         sut.engine.remove_link(LinkId{1});
     }
@@ -56,6 +56,37 @@ TEST_F(DepartedVehicle, IsLearnedAtOnceWhenItConnectsAgain) {
     EXPECT_THAT(command(), ElementsAre(4));
 }
 
+// Somebody connects, claims to be the vehicle and leaves, again and again.
+TEST_F(DepartedVehicle, WasHeardForFiveSecondsElseItKeepsNoPlace) {
+    connect(1, {}, home);
+    connect(3);
+    for (std::uint32_t link = 10; link < 20; ++link) {
+        connect(link, {}, link);
+        sut.hears(link, vehicle);
+        sut.engine.remove_link(LinkId{link});
+        sut.hears(1, vehicle);
+        sut.wait(100ms);
+    }
+
+    EXPECT_THAT(command(), ElementsAre(1));
+}
+
+// An impostor with many links leaves one whenever the place of the last one ends.
+TEST_F(DepartedVehicle, YieldsToAVehicleThatIsHeardForFiveSeconds) {
+    connect(1, {}, home);
+    connect(3);
+    for (std::uint32_t link = 10; link < 20; ++link) connect(link, {}, link);
+    for (std::uint32_t i = 0; i < 158; ++i) {
+        sut.wait(100ms);
+        if (i >= 100 && i % 20 == 0) sut.engine.remove_link(LinkId{10 + i / 20});
+        if (i >= 100 && i % 20 != 19) sut.hears(1, vehicle);
+        for (std::uint32_t link = 10; link < 20; ++link) sut.hears(link, vehicle);
+    }
+    sut.wait(100ms).hears(1, vehicle);
+
+    EXPECT_THAT(command(), Contains(1));
+}
+
 TEST_F(DepartedVehicle, KeepsItsPlaceForTwoSeconds) {
     lose();
     impostor_sends(1900ms);
@@ -72,6 +103,70 @@ TEST_F(DepartedVehicle, OfAVerifiedLinkKeepsItsPlaceUntilItsRouteTimesOut) {
 
     impostor_sends(1100ms);
     EXPECT_THAT(command(), ElementsAre(2));
+}
+
+TEST_F(DepartedVehicle, OfALinkThatWasRemovedOnPurposeKeepsNoPlace) {
+    lose({.is_verified = true});
+    sut.engine.forget_departed();
+    sut.hears(2, vehicle);
+
+    EXPECT_THAT(command(), ElementsAre(2));
+}
+
+TEST_F(DepartedVehicle, KeepsItsPlaceAfterItsLastFrameWhicheverComponentSentIt) {
+    connect(1, {.is_verified = true}, home);
+    connect(2);
+    connect(3);
+    sut.hears(1, {1, 154});
+    sut.wait(30s);
+    sut.hears(1, vehicle);
+    sut.wait(1s);
+    sut.hears(3, gcs);
+    sut.engine.remove_link(LinkId{1});
+    impostor_sends(50s);
+
+    EXPECT_THAT(command(), IsEmpty());
+}
+
+TEST_F(DepartedVehicle, OfAGroupKeepsItsPlaceAfterTheLastFrameOnAnyLink) {
+    connect(1, {.group = GroupId{1}}, home);
+    connect(2);
+    connect(3);
+    connect(4, {.group = GroupId{1}}, elsewhere);
+    for (int i = 0; i < 5; ++i) {
+        sut.hears(4, vehicle);
+        sut.wait(1500ms);
+        sut.hears(1, vehicle);
+    }
+    sut.engine.remove_link(LinkId{1});
+    sut.engine.remove_link(LinkId{4});
+    impostor_sends(1s);
+
+    EXPECT_THAT(command(), IsEmpty());
+}
+
+TEST_F(DepartedVehicle, DoesNotBlockALinkThatHadARouteBefore) {
+    connect(1, {}, home);
+    connect(2);
+    connect(3);
+    sut.hears(2, {1, 191});
+    sut.hears(1, vehicle);
+    sut.engine.remove_link(LinkId{1});
+    sut.wait(1s);
+    sut.hears(2, {1, 191});
+
+    EXPECT_EQ(sut.engine.routes(sut.now)[0].age, 0s);
+}
+
+TEST_F(DepartedVehicle, IsNoGroundStation) {
+    connect(1, {.is_verified = true}, home);
+    connect(2);
+    connect(3);
+    sut.hears(1, gcs);
+    sut.engine.remove_link(LinkId{1});
+    sut.hears(2, gcs);
+
+    EXPECT_THAT(sut.command(3, vehicle, gcs), ElementsAre(2));
 }
 
 TEST_F(DepartedVehicle, MayReturnOnAnyVerifiedLink) {
@@ -99,11 +194,17 @@ TEST_F(DepartedVehicle, MayNotReturnOnAnotherPeerOfItsEndpoint) {
 }
 
 TEST_F(DepartedVehicle, IsNotReplacedByAnImpostorWhoseLinkGoesToo) {
-    lose();
-    connect(5, {}, elsewhere);
-    sut.hears(5, {1, 77});
+    connect(2, {}, elsewhere);
+    connect(3);
+    for (int i = 0; i < 60; ++i) {
+        sut.wait(100ms);
+        if (i == 0) connect(1, {}, home);
+        sut.hears(1, vehicle);
+        sut.hears(2, vehicle);
+    }
+    ASSERT_THAT(command(), ElementsAre(1, 2)) << "the impostor has earned a route";
+    sut.engine.remove_link(LinkId{1});
     sut.engine.remove_link(LinkId{2});
-    sut.engine.remove_link(LinkId{5});
     connect(4, {}, home);
     sut.hears(4, vehicle);
 

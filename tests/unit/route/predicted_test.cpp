@@ -84,9 +84,9 @@ protected:
     Mirror() { sut.links(3); }
     void mirrored(std::uint32_t from, Id source) {
         const Bytes frame = make_frame("HEARTBEAT", source, {{"custom_mode", ++count}});
-        sut.pass(from, frame);
+        const auto sent = sut.pass(from, frame);
         sut.wait(100ms);
-        sut.pass(2, frame);
+        if (std::ranges::find(sent, 2u) != sent.end()) sut.pass(2, frame);
         sut.wait(400ms);
     }
 
@@ -124,6 +124,18 @@ TEST_F(Mirror, OfTheProgramsOwnFramesTeachesNoRoutes) {
     }
 
     EXPECT_THAT(sut.command(3, gcs, vehicle), ElementsAre(1));
+}
+
+TEST_F(Mirror, DoesNotKeepAVehicleThatLeftIt) {
+    sut.link();
+    sut.settles(2, vehicle);
+    for (const std::uint32_t link : {1u, 4u})
+        for (int i = 0; i < 4; ++i) {
+            mirrored(3, gcs);
+            mirrored(link, vehicle);
+        }
+
+    EXPECT_THAT(sut.command(3, gcs, vehicle), Contains(4)) << "learned after 2 s of silence elsewhere";
 }
 
 // The frames of this program go out on a link and do not come back, those of others do.

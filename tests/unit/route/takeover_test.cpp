@@ -87,6 +87,22 @@ TEST_F(Takeover, ANewComponentOfTheVehicleIsLearnedAtOnce) {
     EXPECT_THAT(sut.command(3, gcs, {1, 154}), ElementsAre(1));
 }
 
+TEST_F(Takeover, TheComponentsOfACompanionAreLearnedTogetherAndReportedOnce) {
+    sut.links(3);
+    for (int i = 0; i < 52; ++i) {
+        sut.wait(100ms);
+        sut.hears(1, vehicle);
+        sut.hears(2, {1, 191});
+    }
+    ASSERT_THAT(sut.command(3, gcs, {1, 191}), ElementsAre(2));
+
+    for (const std::uint8_t component : std::array<std::uint8_t, 3>{154, 100, 171}) {
+        sut.hears(2, {1, component});
+        EXPECT_THAT(sut.command(3, gcs, {1, component}), ElementsAre(2));
+    }
+    EXPECT_EQ(sut.engine.counters().route_conflicts.value(), 1u);
+}
+
 // A link claims up to 32 vehicles at once.
 TEST_F(Takeover, FortyVehiclesOfOneLinkGetTheirCommandsBack) {
     sut.links(3);
@@ -236,14 +252,6 @@ TEST_F(ForgedStation, KeepsNoCommandsFromTheVehicleHoweverLong) {
         fly(1s, true);
         EXPECT_THAT(command(), ElementsAre(1)) << i;
     }
-}
-
-TEST_F(ForgedStation, KeepsNoCommandsOfANewLinkFromTheVehicle) {
-    sut.links(3);
-    fly(3s, true);
-    sut.link();
-
-    EXPECT_THAT(sut.command(4, gcs, vehicle), ElementsAre(1));
 }
 
 TEST_F(ForgedStation, KeepsNoBroadcastsFromTheVehicleForFiveSeconds) {
