@@ -202,7 +202,10 @@ std::vector<std::uint32_t> reached_after_reconnect_from(std::string_view host_an
     ForwarderAtWork router;
     router.links.names[1] = "tcp#10.0.0.1:1000";  // of the links 1 and 5
     for (int i = 0; i < 4; ++i) router.link();
-    router.hears(1, attitude());
+    for (int i = 0; i <= 5; ++i) {
+        router.links.time += 1s;
+        router.hears(1, attitude());
+    }
     router.sut.remove_link(LinkId{1});
     router.links.names[1] = host_and_port;
     router.link();
