@@ -10,7 +10,7 @@ namespace mavloom::route {
 
 static constexpr SystemId station{255};  // by convention
 
-// An echo does not make its sender present or alive here, so frames of the sender still go to this link.
+// An echo does not make its sender present here, so frames of the sender still go to this link.
 void Engine::Impl::learn_from_echo(const wire::FrameView& frame, const wire::MessageInfo* info, Slot slot) noexcept {
     Passage p{frame, 0, info, frame.id(), pair_of(frame.source()), slot, *links[slot], now_};
     note_return(p);
