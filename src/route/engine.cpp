@@ -20,7 +20,7 @@ bool Engine::add_link(LinkId link, const LinkPolicy& policy, std::uint64_t addre
     return impl_->add_link(link, policy, address);
 }
 void Engine::remove_link(LinkId link) { impl_->remove_link(link); }
-void Engine::forget_departed() noexcept { impl_->forget_departed(); }
+void Engine::close_link(LinkId link) { impl_->close_link(link); }
 void Engine::set_options(const Options& options) { impl_->set_options(options); }
 void Engine::set_group_orders(std::span<const GroupOrder> orders) { impl_->set_group_orders(orders); }
 std::size_t Engine::links() const noexcept { return impl_->link_count; }

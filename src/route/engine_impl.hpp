@@ -23,7 +23,7 @@ public:
 
     bool add_link(LinkId id, const LinkPolicy& policy, std::uint64_t address);
     void remove_link(LinkId id);
-    void forget_departed() noexcept { departed_ = {}; }
+    void close_link(LinkId id);
     void set_options(const Options& given);
     void set_group_orders(std::span<const GroupOrder> orders);
     [[nodiscard]] std::uint64_t mark_of(const wire::FrameView& frame) const noexcept;

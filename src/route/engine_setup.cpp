@@ -71,9 +71,13 @@ bool Engine::Impl::add_link(LinkId id, const LinkPolicy& policy, std::uint64_t a
 }
 
 void Engine::Impl::remove_link(LinkId id) {
+    if (const Slot slot = slot_of(id); slot != no_slot) note_departure(slot);
+    close_link(id);
+}
+
+void Engine::Impl::close_link(LinkId id) {
     const Slot slot = slot_of(id);
     if (slot == no_slot) return;
-    note_departure(slot);
     routes_.remove_link(slot);
     delist(slot);
     remove_from_index(slot);

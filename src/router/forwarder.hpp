@@ -40,8 +40,8 @@ public:
     // any.
     [[nodiscard]] bool add_link(LinkId link, const RoutedEndpoint& endpoint);
     void remove_link(LinkId link);
-    // Call it after links were removed on purpose.
-    void forget_departed() noexcept { engine_.forget_departed(); }
+    // Call it first for a link that is closed on purpose; see Engine::close_link.
+    void close_link(LinkId link) { engine_.close_link(link); }
     void set_group_orders(std::span<const route::GroupOrder> orders) { engine_.set_group_orders(orders); }
 
     // Call these three, in order, for each received frame. `mark_of` prefetches the entry that `decide` needs, so call

@@ -25,9 +25,11 @@ bool Router::remove(std::string_view label) {
     const RoutedEndpoint* const endpoint = endpoints_->find(label);
     if (endpoint == nullptr) return close_link(label);
     for (const auto& link : links_->links())
-        if (link.endpoint == endpoint->id) forget_link(link.id);
+        if (link.endpoint == endpoint->id) {
+            forwarder_->close_link(link.id);
+            forget_link(link.id);
+        }
     endpoints_->remove(*endpoint);
-    forwarder_->forget_departed();
     return true;
 }
 
@@ -35,8 +37,8 @@ bool Router::close_link(std::string_view name) {
     const auto links = links_->links();
     const auto link = std::ranges::find(links, name, &link::LinkInfo::name);
     if (link == links.end() || !links_->close(link->id)) return false;
+    forwarder_->close_link(link->id);
     forget_link(link->id);
-    forwarder_->forget_departed();
     return true;
 }
 

@@ -197,8 +197,8 @@ public:
     bool add_link(LinkId link, const LinkPolicy& policy, std::uint64_t address = 0);
     // Forgets the link and its routes. Ignores an unknown id.
     void remove_link(LinkId link);
-    // Call it after links were removed on purpose. Then their vehicles keep no places.
-    void forget_departed() noexcept;
+    // The same for a link that was closed on purpose. Its vehicles keep no places.
+    void close_link(LinkId link);
     [[nodiscard]] std::size_t links() const noexcept;
     // Changes the rules. Links, routes, counters and remembered frames stay. `seed` and `recent_frames` are ignored:
     // they keep the values given to the constructor.

@@ -105,9 +105,12 @@ TEST_F(DepartedVehicle, OfAVerifiedLinkKeepsItsPlaceUntilItsRouteTimesOut) {
     EXPECT_THAT(command(), ElementsAre(2));
 }
 
-TEST_F(DepartedVehicle, OfALinkThatWasRemovedOnPurposeKeepsNoPlace) {
-    lose({.is_verified = true});
-    sut.engine.forget_departed();
+TEST_F(DepartedVehicle, OfALinkThatWasClosedOnPurposeKeepsNoPlace) {
+    connect(1, {.is_verified = true}, home);
+    connect(2);
+    connect(3);
+    sut.hears(1, vehicle);
+    sut.engine.close_link(LinkId{1});
     sut.hears(2, vehicle);
 
     EXPECT_THAT(command(), ElementsAre(2));
