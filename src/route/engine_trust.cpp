@@ -115,12 +115,10 @@ bool Engine::Impl::may_return(const Passage& p) noexcept {
 Engine::Impl::Claim* Engine::Impl::note_claim(const Passage& p) noexcept {
     const SystemId system = p.frame.system();
     auto claim = std::ranges::find(p.link.claims, system, &Claim::system);
-    if (claim == p.link.claims.end()) {
-        claim = std::ranges::min_element(p.link.claims, {}, &Claim::last);
-        if (claim->system != SystemId{} && p.now - claim->last < alive_for) return nullptr;
-        *claim = {.system = system, .since = p.now, .last = p.now};
-    }
-    if (p.now - claim->last >= alive_for) *claim = {.system = system, .since = p.now};
+    if (claim == p.link.claims.end()) claim = std::ranges::min_element(p.link.claims, {}, &Claim::last);
+    const bool is_recent = claim->system != SystemId{} && p.now - claim->last < alive_for;
+    if (is_recent && claim->system != system) return nullptr;
+    if (!is_recent) *claim = {.system = system, .since = p.now};
     claim->last = p.now;
     return claim;
 }

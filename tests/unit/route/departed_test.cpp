@@ -23,11 +23,14 @@ protected:
     void connect(std::uint32_t link, const LinkPolicy& policy = {}, std::uint64_t address = 0) {
         ASSERT_TRUE(sut.engine.add_link(LinkId{link}, policy, address));
     }
-    // The vehicle has link 1 and loses it.
-    void lose(const LinkPolicy& policy = {}) {
-        connect(1, policy, home);
+    void connect_all(const LinkPolicy& policy_of_vehicle = {}) {
+        connect(1, policy_of_vehicle, home);
         connect(2, {}, elsewhere);
         connect(3);
+    }
+    // The vehicle has link 1 and loses it.
+    void lose(const LinkPolicy& policy = {}) {
+        connect_all(policy);
         for (int i = 0; i <= 50; ++i) {
             sut.wait(100ms);
             sut.hears(1, vehicle);
@@ -106,9 +109,7 @@ TEST_F(DepartedVehicle, OfAVerifiedLinkKeepsItsPlaceUntilItsRouteTimesOut) {
 }
 
 TEST_F(DepartedVehicle, OfALinkThatWasClosedOnPurposeKeepsNoPlace) {
-    connect(1, {.is_verified = true}, home);
-    connect(2);
-    connect(3);
+    connect_all({.is_verified = true});
     sut.hears(1, vehicle);
     sut.engine.close_link(LinkId{1});
     sut.hears(2, vehicle);
@@ -117,9 +118,7 @@ TEST_F(DepartedVehicle, OfALinkThatWasClosedOnPurposeKeepsNoPlace) {
 }
 
 TEST_F(DepartedVehicle, KeepsItsPlaceAfterItsLastFrameWhicheverComponentSentIt) {
-    connect(1, {.is_verified = true}, home);
-    connect(2);
-    connect(3);
+    connect_all({.is_verified = true});
     sut.hears(1, {1, 154});
     sut.wait(30s);
     sut.hears(1, vehicle);
@@ -132,10 +131,8 @@ TEST_F(DepartedVehicle, KeepsItsPlaceAfterItsLastFrameWhicheverComponentSentIt) 
 }
 
 TEST_F(DepartedVehicle, OfAGroupKeepsItsPlaceAfterTheLastFrameOnAnyLink) {
-    connect(1, {.group = GroupId{1}}, home);
-    connect(2);
-    connect(3);
-    connect(4, {.group = GroupId{1}}, elsewhere);
+    connect_all({.group = GroupId{1}});
+    connect(4, {.group = GroupId{1}}, 9);
     for (int i = 0; i < 5; ++i) {
         sut.hears(4, vehicle);
         sut.wait(1500ms);
@@ -149,22 +146,17 @@ TEST_F(DepartedVehicle, OfAGroupKeepsItsPlaceAfterTheLastFrameOnAnyLink) {
 }
 
 TEST_F(DepartedVehicle, DoesNotBlockALinkThatHadARouteBefore) {
-    connect(1, {}, home);
-    connect(2);
-    connect(3);
+    connect_all();
     sut.hears(2, {1, 191});
-    sut.hears(1, vehicle);
+    for (int i = 0; i <= 5; ++i) sut.wait(1s).hears(1, vehicle);
     sut.engine.remove_link(LinkId{1});
-    sut.wait(1s);
-    sut.hears(2, {1, 191});
+    sut.wait(1s).hears(2, {1, 191});
 
     EXPECT_EQ(sut.engine.routes(sut.now)[0].age, 0s);
 }
 
 TEST_F(DepartedVehicle, IsNoGroundStation) {
-    connect(1, {.is_verified = true}, home);
-    connect(2);
-    connect(3);
+    connect_all({.is_verified = true});
     sut.hears(1, gcs);
     sut.engine.remove_link(LinkId{1});
     sut.hears(2, gcs);
