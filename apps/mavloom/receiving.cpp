@@ -74,7 +74,7 @@ void ReceiveOptions::declare(Arguments command) {
         .type_name("BYTES");
 }
 
-void say_ports(const Common& common, const std::vector<link::EndpointInfo>& endpoints) {
+void log_ports(const Common& common, const std::vector<link::EndpointInfo>& endpoints) {
     for (const auto& info : endpoints)
         if (info.endpoint.address.port == 0 && info.local_port != 0)
             print_notice(common, fmt::format("{}: listening on port {}", info.endpoint.label(), info.local_port));

@@ -32,7 +32,7 @@ private:
 
 // Logs the ports of endpoints that were opened with port 0. Call it after Signals is constructed: a program that waits
 // for these lines may send a signal at once.
-void say_ports(const Common& common, const std::vector<link::EndpointInfo>& endpoints);
+void log_ports(const Common& common, const std::vector<link::EndpointInfo>& endpoints);
 
 struct ReceiveOptions {
     std::vector<std::string> sources;

@@ -16,7 +16,7 @@ void say_renamed(const Common& common, const record::RotatingWriter& file) {
         print_notice(common, fmt::format("{} exists and is now {}", file.path().string(), old.string()));
 }
 
-void say_sums(const Common& common, const feed::Delivery& sums) {
+void log_sums(const Common& common, const feed::Delivery& sums) {
     const auto frames = [&](std::uint64_t count, std::string_view what) {
         if (count != 0) print_notice(common, fmt::format("{}: {} {}", sums.name, counted(count, "frame"), what));
     };
@@ -57,9 +57,9 @@ SetupResult<feed::Destinations> open_destinations(const Common& common, const st
     return all;
 }
 
-void say_sums(const Common& common, const feed::Destinations& destinations) {
-    for (const auto& sums : destinations.deliveries()) say_sums(common, sums);
-    for (const auto& file : destinations.files()) say_recorded(common, file);
+void log_sums(const Common& common, const feed::Destinations& destinations) {
+    for (const auto& sums : destinations.deliveries()) log_sums(common, sums);
+    for (const auto& file : destinations.files()) log_recorded(common, file);
 }
 
 Json sums_json(const feed::Destinations& destinations) {
@@ -77,7 +77,7 @@ Json sums_json(const feed::Destinations& destinations) {
     return all;
 }
 
-void say_recorded(const Common& common, const record::RotatingWriter& file) {
+void log_recorded(const Common& common, const record::RotatingWriter& file) {
     const auto files = file.segments() == 1 ? std::string() : fmt::format(" in {} files", file.segments());
     print_notice(common,
                  fmt::format("{}: {}, {} written{}", file.path().string(), counted(file.written_records(), "frame"),

@@ -26,12 +26,12 @@ using Json = nlohmann::ordered_json;
                                                                 link::Links& links);
 
 // Logs "udpout://…: 40087 frames, 1834899 bytes sent" for each destination, then how many frames were lost and why.
-void say_sums(const Common& common, const feed::Destinations& destinations);
+void log_sums(const Common& common, const feed::Destinations& destinations);
 // Returns the same totals as a JSON array. docs/guide/relay.md lists the keys.
 [[nodiscard]] Json sums_json(const feed::Destinations& destinations);
 
 // Logs the totals of a recording: "x.tlog: 12 frames, 348 bytes written".
-void say_recorded(const Common& common, const record::RotatingWriter& file);
+void log_recorded(const Common& common, const record::RotatingWriter& file);
 [[nodiscard]] Json recorded_json(const record::RotatingWriter& file);
 
 }  // namespace mavloom::app

@@ -155,7 +155,7 @@ std::string stats_line(Json stats) {
     return Json{{"stats", std::move(stats)}}.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-void say_losses(const Common& common, const feed::Totals& totals) {
+void log_losses(const Common& common, const feed::Totals& totals) {
     for (const auto& loss : losses_of(totals))
         if (loss.value != 0) print_notice(common, loss.text());
 }

@@ -26,6 +26,6 @@ std::string traffic_text(const observe::TrafficTable& traffic, feed::Receiver& r
 std::string traffic_json(const observe::TrafficTable& traffic, feed::Receiver& receiver,
                          const dialect::Dialect& dialect, std::uint64_t unprinted);
 // Logs one line for each kind of loss or damage that occurred.
-void say_losses(const Common& common, const feed::Totals& totals);
+void log_losses(const Common& common, const feed::Totals& totals);
 
 }  // namespace mavloom::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds endpoints that would use the same port or file of this machine. Private to module config; pure functions.
+// Finds endpoints that would use the same port or file on this machine. Private to module config; pure functions.
 #pragma once
 
 #include <string_view>

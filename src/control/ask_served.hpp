@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Asks the served program from the control thread.
+// Passes requests from the control thread to the served program, and its reports back.
 #pragma once
 
 #include <boost/asio/any_io_executor.hpp>

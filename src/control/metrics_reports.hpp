@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The text of the metrics, shared by all HTTP clients. Control thread only.
 //
-// A report is up to `fresh_for` old. So however many clients ask, the served program copies its counters once in that
+// A text is reused for `fresh_for`. However many clients ask, the served program copies its counters only once in that
 // time, and clients that read slowly share a few texts.
 #pragma once
 
@@ -35,7 +35,8 @@ public:
             [this](const Report& report) { answer(whole(report)); });
     }
 
-    // Clients must then name this machine in the Host header: web pages that a browser shows may not read the metrics.
+    // From now on, clients must name this machine in the Host header, so that web pages in a browser cannot read the
+    // metrics.
     void require_local_host() noexcept { requires_local_host_ = true; }
     [[nodiscard]] bool requires_local_host() const noexcept { return requires_local_host_; }
 

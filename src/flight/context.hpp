@@ -37,7 +37,7 @@ struct FlightContext {
     [[nodiscard]] const Texts& texts() const noexcept { return firmware.texts(); }
     [[nodiscard]] bool is_on_ground() const noexcept { return landed == LandedState::on_ground; }
 
-    // Announces a text of the firmware; an empty one is not announced.
+    // Announces a text of the firmware. Does nothing for an empty text.
     void say(Severity severity, std::string_view text) const;
     // Announces the text, if there is one, and returns the refusal.
     [[nodiscard]] Outcome refuse(Result result, std::string_view text, std::string_view value = {}) const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The body of a vehicle: airframe, battery, sensors, the wind around it, and its place on earth. Private to flight;
-// single owner; `step` allocates nothing. Craft moves; it decides nothing.
+// single owner; `step` allocates nothing. Craft makes no decisions.
 #pragma once
 
 #include <memory>
@@ -23,7 +23,7 @@ public:
     void step(const Setpoint& setpoint, bool armed);
     // Puts the vehicle at rest at a place of the local frame, which may be in the air.
     void place(const Vector3& position, double heading);
-    // The vehicle boots again where it stands.
+    // Boots the vehicle again where it stands.
     void reboot();
 
     [[nodiscard]] Kind kind() const noexcept { return kind_; }

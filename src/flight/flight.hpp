@@ -126,13 +126,13 @@ public:
     Outcome resume();
     Outcome change_altitude(double altitude);  // m above mean sea level
     Outcome change_speed(SpeedKind kind, double speed);
-    // Turns the nose to `yaw`, clockwise from north or relative to the present heading. A `nan` angle ends the order.
+    // Turns the nose to `yaw`, clockwise from north or relative to the current heading. A `nan` angle ends the order.
     Outcome turn_to(double yaw, double yaw_rate, bool relative);
     Outcome look_at(const std::optional<GeoPoint>& point);  // region of interest; empty: none
     Outcome start_mission(std::optional<std::uint16_t> first);
-    // Without `seq`, restarts the present item.
+    // Without `seq`, restarts the current item.
     Outcome set_current_item(std::optional<std::uint16_t> seq, bool resets);
-    Outcome set_home(const std::optional<GeoPoint>& point, double yaw);  // empty: the present position
+    Outcome set_home(const std::optional<GeoPoint>& point, double yaw);  // empty: the current position
     Outcome set_origin(const GeoPoint& origin);
     Outcome terminate();
     Outcome enable_fence(bool enabled);

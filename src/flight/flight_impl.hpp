@@ -2,10 +2,10 @@
 // The parts of Flight and the order in which they work. Private to flight.
 //
 //   Craft           moves: airframe, battery, sensors, wind       250 Hz
-//   Navigator       set-points for the present behaviour           50 Hz, like the parts below
+//   Navigator       set-points for the current behaviour           50 Hz, like the parts below
 //   LandedDetector  on the ground or not
 //   Commander       armed or not, and in which mode
-//   Failsafes       have the Commander act; Fence is one reason
+//   Failsafes       make the Commander act; a breached Fence is one reason
 #pragma once
 
 #include "flight/navigation/navigator.hpp"

@@ -24,7 +24,7 @@ enum class Behaviour : std::uint8_t {
     offboard,     // follows a client's set-points; for ArduPilot, Guided
     brake,        // stops as fast as possible, then holds
     descend,      // comes down without a position
-    terminated,   // motors off, for good
+    terminated,   // motors off until the next boot
     unavailable,  // is listed but cannot be selected
 };
 

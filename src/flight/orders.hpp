@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The orders that clients can give a vehicle, and its answers. Private to flight and sim; plain values. `nan` means
-// "not given": the vehicle then chooses, usually its present value.
+// "not given": the vehicle then chooses, usually its current value.
 #pragma once
 
 #include <cstdint>
@@ -69,7 +69,7 @@ struct OrbitOrder {
     double radius = nan;  // m; negative counter-clockwise
     double speed = nan;   // m/s
     OrbitYaw yaw = OrbitYaw::to_center;
-    double turns = 0;  // 0: for ever
+    double turns = 0;  // 0: until the next order
 };
 
 // Sticks in -1 to 1 (pitch forward, roll right, yaw clockwise), throttle in 0 to 1.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Plans that clients upload: mission, fence and rally points. Private to flight and sim; single owner. Items are kept
-// as they arrived, so that a download returns them bit by bit.
+// as they arrived, so that a download returns them bit for bit.
 #pragma once
 
 #include <array>

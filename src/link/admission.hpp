@@ -3,9 +3,9 @@
 // little. Private to module link; single owner thread.
 //
 // The first senders enter at once, later ones at a steady rate. A sender that is turned away during a flood enters when
-// it sends again 0.5 to 10 s later. Every MAVLink program does that; invented addresses mostly do not. If many of them
-// repeat, they enter at a steady rate too. Above 44,000 new addresses a second, the table is full, and a sender may
-// need some tries. `ask` allocates once: a table of senders, when the first is turned away. See
+// it sends again 0.5 to 10 s later. Every MAVLink program does that; invented addresses mostly do not. If many
+// senders repeat, they enter at a steady rate too. Above 44,000 new addresses a second, the table is full, and a sender
+// may need several tries. `ask` allocates once: a table of senders, when the first is turned away. See
 // docs/design/security.md.
 #pragma once
 
@@ -26,7 +26,7 @@ public:
     enum class Answer : std::uint8_t {
         admitted,
         refused,  // too many new senders; it may enter when it repeats
-        limited,  // it repeated, as too many others did
+        limited,  // it repeated, but so did too many others
     };
     static constexpr double per_second = 50;
     static constexpr double repeaters_per_second = 100, most_repeaters_at_once = 100;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Chooses which peer to evict when max_peers is reached, all peers talk, and another sender waits. Without this, an
-// attacker that comes first with many addresses keeps all others out.
+// Chooses which peer to evict when max_peers is reached, all peers are active, and another sender waits. Without this,
+// an attacker that first takes all places with invented addresses would keep every other sender out.
 //
-// The older half never leaves, so peers that were there before a crowd keep their places. Of the younger half, a random
-// peer leaves. So a late vehicle among hundreds of others soon has a place, and mostly keeps it for minutes. With few
-// peers nobody leaves. Private to module link; single owner thread.
+// The older half of the peers is never evicted, so peers that were there before a crowd keep their places. Of the
+// younger half, a random peer is evicted. A vehicle that arrives late among hundreds of other senders therefore soon
+// gets a place, and usually keeps it for minutes. If there are few peers, none is evicted. Private to module link;
+// single owner thread.
 #pragma once
 
 #include <algorithm>
@@ -20,13 +21,13 @@ namespace mavloom::link::detail {
 
 class Displacement {
 public:
-    static constexpr std::chrono::seconds one_each{2};
-    static constexpr int at_once = 4;
+    static constexpr std::chrono::seconds interval{2};  // on average, between two evictions
+    static constexpr int burst = 4;
 
     explicit Displacement(std::uint32_t seed = std::random_device{}()) : random_(seed) {}
 
-    // Returns null if no peer has to leave now. The link ids give the order in which the peers came. Times do not,
-    // because all peers that come in one turn have the same time. Allocates.
+    // Returns null if no peer should be evicted now. Orders the peers by link id, and not by the time of their arrival,
+    // because all peers that arrive in one turn have the same time. Allocates.
     template <class Peer>
     [[nodiscard]] Peer* choose(std::vector<Peer*> peers, MonoTime now) {
         if (peers.size() < many_peers || !pace_.take(now)) return nullptr;
@@ -37,7 +38,7 @@ public:
 
 private:
     std::minstd_rand random_;
-    Pace pace_{one_each, at_once};
+    Pace pace_{interval, burst};
 };
 
 }  // namespace mavloom::link::detail

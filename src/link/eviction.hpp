@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Chooses which silent peer makes room for a newcomer when max_peers is reached. Private to module link.
 //
-// A peer that talks, and did so in the last 2 s, stays. So a flood of unknown senders does not evict peers that send
-// heartbeats (1 Hz). If there are many peers, the older half may be silent for 10 s: a crowd that comes later does not
-// evict a program that loses some heartbeats.
+// A peer that was heard more than once, and within the last 2 s, stays. So a flood of unknown senders does not evict
+// peers that send heartbeats (1 Hz). If there are many peers, those of the older half may be silent for 10 s. A crowd
+// that arrives later then does not evict a program that loses some heartbeats.
 #pragma once
 
 #include <algorithm>
@@ -29,8 +29,9 @@ template <class Peer>
     return (*middle)->id;
 }
 
-// Returns the longest silent of the peers that have not talked yet, else the longest silent of those that need not
-// stay. Null if there is none. Requires a `Peer` with `id`, `has_talked` and `silent_since`. Allocates.
+// Returns the longest silent of the peers that have not talked yet. If all have talked, returns the longest silent of
+// those that may be evicted; null if there is none. Requires a `Peer` with `id`, `has_talked` and `silent_since`.
+// Allocates.
 template <class Peer>
 [[nodiscard]] Peer* to_evict(const std::vector<Peer*>& peers, MonoTime now) {
     const auto rank = [](const Peer* peer) { return std::pair(peer->has_talked(), peer->silent_since()); };

@@ -26,8 +26,8 @@ struct Link {
     // How the link sends.
     enum class Sending : std::uint8_t {
         queued,
-        // The link has an allowance: the bytes that may be sent to it. A forged sender address must not direct all
-        // traffic to its owner. Only UDP peers have one.
+        // The link has an allowance: how many more bytes may be sent to it. A sender that forges its address thus
+        // cannot direct all traffic to the owner of that address. Only UDP peers have an allowance.
         limited,
         // The far side reads outgoing frames from the ring. They are counted, never queued.
         found_in_ring,

@@ -31,7 +31,7 @@ public:
         watch_ = *watch;
         blocked_ = false;
         last_heard = core_.now();
-        // Nothing expired while there was no stream.
+        // Without a stream, no frame was dropped for its age. Catch up now.
         counters.queue_age.add(queue.expire(core_.now()));
         if (is_scheduled) schedule();
         return {};

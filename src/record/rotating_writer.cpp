@@ -84,7 +84,7 @@ SetupResult<void> RotatingWriter::end_segment() {
     return closed;
 }
 
-SetupResult<void> RotatingWriter::go_on_in(TlogWriter next) {
+SetupResult<void> RotatingWriter::continue_in(TlogWriter next) {
     auto closed = end_segment();
     writer_.emplace(std::move(next));
     ++segments_;
@@ -134,7 +134,7 @@ SetupResult<void> RotatingWriter::write(WallTime time, const wire::FrameView& fr
 
 SetupResult<void> RotatingWriter::begin_segment(TlogWriter next, WallTime time) {
     begin_ = time;
-    return go_on_in(std::move(next));
+    return continue_in(std::move(next));
 }
 
 SetupResult<void> RotatingWriter::make_room(WallTime time, const wire::FrameView& frame) {

@@ -28,8 +28,8 @@ struct Found {
 // How many bytes of a file `begins_recording` looks at.
 inline constexpr std::size_t recording_bytes = 65536;
 
-// Returns whether the first bytes of a file are those of a tlog, also of one that was damaged or cut off. Zeros count:
-// they are what a power failure leaves. Looks at times and headers only.
+// Returns whether the first bytes of a file are those of a tlog, which may be damaged or cut off. True also if all
+// bytes are 0, because a power failure leaves such files. Examines times and headers only.
 [[nodiscard]] bool begins_recording(ByteView first_bytes) noexcept;
 
 // Returns the length of the record at the front, from its header alone, or 0 if `bytes` does not hold all of it.

@@ -80,11 +80,11 @@ std::vector<std::string> RingTap::look_after(const link::Links& links) {
 
 // Runs one job at a time. If no thread can be started, the next look_after() tries again.
 template <class Work>
-void RingTap::work_beside(Work work) {
-    if (beside_.joinable()) beside_.join();
+void RingTap::run_in_background(Work work) {
+    if (background_.joinable()) background_.join();
     try {
         const BlockedSignals blocked;
-        beside_ = std::jthread(std::move(work));
+        background_ = std::jthread(std::move(work));
     } catch (const std::system_error&) {
         making_ = {};
     }
@@ -96,7 +96,7 @@ void RingTap::recreate_ring() {
     std::packaged_task<SetupResult<shm::RingWriter>()> task(
         [name = name_, options = options_] { return shm::RingWriter::open(name, options); });
     making_ = task.get_future();
-    work_beside([task = std::move(task), ready = ready_]() mutable {
+    run_in_background([task = std::move(task), ready = ready_]() mutable {
         task();
         ready();
     });
@@ -126,7 +126,7 @@ void RingTap::take_new_ring(std::vector<std::string>& notices) {
                         anew.error().text));
     }
     reported_ring_ = !anew;
-    work_beside([old = std::move(old)] {});  // releasing the memory takes time too
+    run_in_background([old = std::move(old)] {});  // releasing the memory takes time too
 }
 
 void RingTap::recreate_page(const link::Links& links, std::vector<std::string>& notices) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The vehicles of links that went away. A vehicle that reconnects gets a new link; until it is back, or has been silent
-// for long enough, nobody else may take its place.
+// Reserves the places of vehicles whose links went away. A vehicle that reconnects gets a new link. Until it is back,
+// or has been silent for long enough, the engine does not learn it on a link that leads to another place.
 //
 // Private to module route; one owner thread; never allocates.
 #pragma once
@@ -29,7 +29,7 @@ struct Place {
 
 class Departed {
 public:
-    // The link at this place is gone. It brought the system, which keeps its place until the time `until`.
+    // Call when the link at this place is gone. Reserves the place for the system until the time `until`.
     void note(SystemId system, const Place& place, MonoTime until, MonoTime now) noexcept {
         Vehicle& known = vehicles_[system.value];
         const bool is_same = known.until > now && known.place.is_same(place);
@@ -38,9 +38,9 @@ public:
         known = {place, is_same ? std::max(known.until, until) : until};
         last_until_ = std::max(last_until_, until);
     }
-    // Whether any vehicle keeps a place.
+    // Whether a place is reserved for any vehicle.
     [[nodiscard]] bool any(MonoTime now) const noexcept { return last_until_ > now; }
-    // Null if the system has no place to keep. Else the place that it had.
+    // Returns the place that is reserved for the system; null if there is none.
     [[nodiscard]] const Place* find(SystemId system, MonoTime now) const noexcept {
         const Vehicle& known = vehicles_[system.value];
         return known.until > now ? &known.place : nullptr;

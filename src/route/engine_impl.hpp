@@ -45,8 +45,9 @@ public:
         MonoTime since{}, last{};
         bool is_reported = false;  // as a conflict
     };
-    // Of a link on which an echo arrived: whether frames that are sent to it come back. A link that sends everything
-    // back brings frames of all systems. A vehicle whose heartbeats somebody predicted brings those of its own.
+    // For a link on which an echo arrived: the systems whose frames came back on it. A link that returns everything
+    // brings back frames of all systems. The link of a vehicle whose heartbeats an attacker predicted and sent first
+    // seems to return frames, but only those of that vehicle.
     struct Returns {
         std::array<std::uint64_t, 4> systems{};  // set of the systems of which frames came back
         std::uint32_t kept = 0;                  // frames of other systems since `kept_since`
@@ -83,13 +84,14 @@ public:
 
 private:
     static constexpr std::uint32_t no_group = ~std::uint32_t{0}, no_family = ~std::uint32_t{0};
-    // More slots than this do not rest.
+    // At most this many free slots rest; see left_at_.
     static constexpr std::size_t most_resting = 64;
     static constexpr std::size_t worth_a_list = 8;
     static constexpr std::size_t most_listed = 1024;  // with more links, the lists would take too much memory
     // Within this time, a restart reported by another link of the vehicle counts as the same restart.
     static constexpr std::chrono::seconds one_reboot{10};
-    // A link sends nothing back if this many frames of systems that it returned nothing of were sent to it.
+    // A link counts as one that returns nothing once this many frames were sent to it, from systems none of whose
+    // frames came back.
     static constexpr std::uint32_t kept_frames = 5;
     static constexpr std::chrono::seconds returns_forgotten_after{60};
     // A source heard on A, B, A, B counts as two senders. A sender that merely moves between links does not alternate
@@ -142,12 +144,12 @@ private:
     [[nodiscard]] bool came_by_group(const Passage& p) noexcept;
     void remember(Passage& p, bool found) noexcept;
     void learn(Passage& p) noexcept;
-    // The frame is an echo; learns where its sender is if the link does not send back what it gets.
+    // Call for an echo. Learns the route to its sender, unless the link returns everything that is sent to it.
     // It is not inlined and takes no Passage, so that the compiler keeps that of `route` in registers.
     [[gnu::noinline]] void learn_from_echo(const wire::FrameView& frame, const wire::MessageInfo* info,
                                            Slot slot) noexcept;
     void note_return(Passage& p) noexcept;
-    // The frame of this system is sent to the links of `set`.
+    // Call when a frame of this system is sent to the links of `set`.
     [[gnu::noinline]] void watch_for_returns(SystemId system, ConstWords set) noexcept;
     // Whether the route of a frame may be learned. docs/design/security.md has the table of decisions.
     [[nodiscard]] bool may_learn(const Passage& p) noexcept;
@@ -163,7 +165,7 @@ private:
     [[nodiscard]] static Pair autopilot_of(SystemId system) noexcept {
         return pair_of({system, ComponentId{1}});  // MAV_COMP_ID_AUTOPILOT1
     }
-    // Updates, and returns, the claim of this link to the system of the frame; null if the link has no room for it.
+    // Updates and returns this link's claim to the frame's system. Null if the link has no room for another claim.
     Claim* note_claim(const Passage& p) noexcept;
     // Whether the claim is old enough to be believed. It may be null.
     [[nodiscard]] static bool is_old(const Claim* claim, const Passage& p) noexcept;
@@ -171,7 +173,7 @@ private:
     void note_conflict(const Passage& p, Slot first) noexcept;
     [[nodiscard]] bool is_origin(Slot slot, const Passage& p) const noexcept;
     [[nodiscard]] const Route* present_route(Slot slot, const Passage& p) const noexcept;
-    // Whether an earlier copy of the frame may be held against this one.
+    // Whether an earlier copy of the frame may make this one a duplicate.
     [[nodiscard]] bool counts_as_heard(const Passage& p) noexcept;
     void count_beats(const Passage& p) noexcept;
     // Whether the link already delivered this HEARTBEAT within doubled_within.
@@ -189,7 +191,7 @@ private:
     [[nodiscard]] Slot choose_member(Group& group, Words candidates, MonoTime now) noexcept;
     // Whether `choose_member` takes `a` rather than `b`, which comes first in the group's order.
     [[nodiscard]] static bool is_better(const Link& a, const Link& b, GroupMode mode) noexcept;
-    // One word of the set of links that lead to the same place as this link, as far as it can be believed.
+    // One word of the set of links that the engine trusts to lead to the same place as this link.
     [[nodiscard]] std::uint64_t same_place(const Link& link, std::size_t w) const noexcept {
         if (link.group == no_group) return 0;
         const std::uint64_t members = groups_[link.group].members[w];
@@ -227,7 +229,8 @@ private:
     std::size_t words_ = 1;
     std::vector<Slot> index_;  // open addressing by link id
     std::vector<LinkId> ids_;  // by slot
-    // When a link left the slot. Until `window_` later, remembered frames may hold the slot's bit, so it rests.
+    // When a link left the slot. Until `window_` later, remembered frames may hold the slot's bit, so the slot rests:
+    // no new link gets it.
     std::vector<MonoTime> left_at_;  // by slot
     std::deque<Slot> resting_;       // the slots without a link, in the order in which they were left
     std::uint64_t links_version_ = 1;

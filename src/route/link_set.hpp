@@ -33,7 +33,7 @@ inline bool any(ConstWords set, std::size_t words) noexcept {
     each_word(words, [&](std::size_t w) { all |= set[w]; });
     return all != 0;
 }
-// Whether the set has another member than this one.
+// Whether the set has a member other than this one.
 inline bool has_other(ConstWords set, Slot slot, std::size_t words) noexcept {
     std::uint64_t all = 0;
     each_word(words, [&](std::size_t w) { all |= set[w] & ~(w == slot / 64 ? std::uint64_t{1} << (slot % 64) : 0); });

@@ -43,8 +43,9 @@ public:
     [[nodiscard]] Words heard(std::size_t index) noexcept { return &cells_[index + 2]; }
     [[nodiscard]] Words sent(std::size_t index) noexcept { return heard(index) + words_; }
 
-    // Another link takes the slot while remembered frames may still hold the bit of the last one. The bits in frames up
-    // to `now` are removed when `find` meets them. `window`: how long frames are remembered. Allocates.
+    // Call when a new link takes a slot while remembered frames may still hold the bit of the slot's previous link.
+    // From then on, `find` removes that bit from frames up to `now`. `window`: how long frames are remembered.
+    // Allocates.
     void retake(Slot slot, MonoTime now, Nanoseconds window);
 
 private:
@@ -87,17 +88,17 @@ inline bool RecentFrames::find(std::uint64_t wanted, std::size_t& index) noexcep
 
 inline bool RecentFrames::put(std::uint64_t new_hash, MonoTime now, Nanoseconds window, bool found,
                               std::size_t& index) noexcept {
-    bool gave_way = false;
+    bool evicted_young = false;
     if (!found) {
         std::size_t i = index;
         for (std::size_t way = 1; way < ways; ++way)
             if (i += stride_; time_ns(i) < time_ns(index)) index = i;
-        gave_way = hash(index) != 0 && now - time(index) < window;
+        evicted_young = hash(index) != 0 && now - time(index) < window;
     }
     cells_[index] = new_hash;
     cells_[index + 1] = static_cast<std::uint64_t>(now.time_since_epoch().count());
     each_word(words_, [&](std::size_t w) { heard(index)[w] = sent(index)[w] = 0; });
-    return gave_way;
+    return evicted_young;
 }
 
 }  // namespace mavloom::route

@@ -59,7 +59,7 @@ bool Forwarder::add_link(LinkId link, const RoutedEndpoint& endpoint) {
 void Forwarder::remove_link(LinkId link) {
     engine_.remove_link(link);
     own_messages_.remove(link);
-    a_link_went_ = true;
+    has_removed_link_ = true;
 }
 
 route::Decision Forwarder::decide(const link::RxFrame& rx, std::uint64_t mark) {
@@ -110,7 +110,7 @@ std::string Forwarder::name_of(LinkId link) const {
 }
 
 std::vector<std::string> Forwarder::look_after() {
-    if (std::exchange(a_link_went_, false))
+    if (std::exchange(has_removed_link_, false))
         traffic_.forget_links_unless([&](LinkId link) { return links_.counters(link) != nullptr; });
     std::vector<std::string> warnings;
     const auto ids = engine_.duplicate_ids();

@@ -79,7 +79,7 @@ private:
     std::vector<route::Explanation> why_;
     Counter not_signed_;
     std::size_t duplicate_ids_reported_ = 0, route_conflicts_reported_ = 0;
-    bool a_link_went_ = false;  // `traffic_` may hold rows of a link that is gone
+    bool has_removed_link_ = false;  // `traffic_` may hold rows of a link that is gone
 };
 
 }  // namespace mavloom::router

@@ -64,8 +64,8 @@ private:
     }
 
     std::unordered_map<Key, Asked, Hash> asked_;
-    static constexpr Nanoseconds one_each = Nanoseconds{std::chrono::seconds{1}} / new_per_second;
-    Pace pace_{one_each, new_at_once};
+    static constexpr Nanoseconds new_interval = Nanoseconds{std::chrono::seconds{1}} / new_per_second;
+    Pace pace_{new_interval, new_at_once};
 };
 
 }  // namespace mavloom::router

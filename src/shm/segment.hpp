@@ -54,8 +54,8 @@ public:
     [[nodiscard]] static SetupResult<Segment> create(const std::string& path, std::size_t size, unsigned mode,
                                                      ByteView content, const Segment* replaced = nullptr);
 
-    // Reads the beginning of the file without the mapping, so a file that was shortened is no danger. Returns how many
-    // bytes it read.
+    // Reads the beginning of the file without the mapping, so that a shortened file cannot crash the process. Returns
+    // how many bytes it read.
     [[nodiscard]] std::size_t read_begin(ByteSpan out) const noexcept;
 
     [[nodiscard]] std::uint8_t* data() const noexcept { return data_; }

@@ -87,7 +87,7 @@ struct Parts final : FlightObserver {
     void retune();
     // Sets a parameter without a client's request, and reports it to all links.
     void put_parameter(std::string_view name, double value);
-    // Takes effect after the present call: the vehicle is silent for some seconds, then runs as after a boot. Without
+    // Takes effect after the current call: the vehicle is silent for some seconds, then runs as after a boot. Without
     // `restarts`, it stays silent for good.
     void reboot(bool restarts) noexcept { wanted_silence_ = restarts ? reboot_time : Nanoseconds::max(); }
     [[nodiscard]] bool is_silent(FlightTime time) const noexcept { return time < silent_until_; }
@@ -114,7 +114,7 @@ private:
     FlightTime silent_until_ = FlightTime::min();
     Nanoseconds wanted_silence_{0};
     FlightTime busy_pump_ = FlightTime::max();  // of the services that are busy
-    FlightTime wake_ = FlightTime::max();       // the earliest that a service wants to wake
+    FlightTime wake_ = FlightTime::max();       // the earliest time at which a service wants to wake
     static constexpr std::size_t direct_ids = 512;
     std::array<std::uint8_t, direct_ids> service_of_{};  // by message id: index in `services` plus one
     bool state_changed_ = false, home_changed_ = false, mission_changed_ = false;

@@ -31,7 +31,7 @@ public:
     }
 
 private:
-    // Later instants mean never. Small enough that no conversion overflows.
+    // Later flight times count as never. This is small enough that no conversion overflows.
     static constexpr sim::FlightTime furthest = std::chrono::hours{24 * 365 * 20};
 
     [[nodiscard]] static Nanoseconds scaled(Nanoseconds time, double factor, std::int64_t more) noexcept {

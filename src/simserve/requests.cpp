@@ -181,7 +181,7 @@ constexpr std::array commands{
 
 Later<Lines> answer_request(Simulator& simulator, std::string_view request) {
     const auto parsed = Json::parse(request, nullptr, false);
-    if (!parsed.is_object()) return failed("a request is one JSON object a line, as in {\"cmd\":\"state\"}");
+    if (!parsed.is_object()) return failed("a request is one JSON object per line, as in {\"cmd\":\"state\"}");
     const auto name = text_at(parsed, "cmd");
     const auto command = std::ranges::find(commands, name, &Command::name);
     if (command != commands.end()) return command->answer(simulator, parsed);

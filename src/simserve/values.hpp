@@ -22,7 +22,7 @@ struct Range {
 
 // "LAT,LON,ALT,HEADING" in degrees and metres above mean sea level.
 [[nodiscard]] SetupResult<sim::Home> parse_home(std::string_view text);
-// "SPEED,DIR" or "SPEED,DIR,GUST": metres a second, and the direction that the wind comes from, in degrees.
+// "SPEED,DIR" or "SPEED,DIR,GUST": metres per second, and the direction that the wind comes from, in degrees.
 [[nodiscard]] SetupResult<sim::Wind> parse_wind(std::string_view text);
 // "capacity:5000,cells:4,minutes:20,start:100"; each part may be left out.
 [[nodiscard]] SetupResult<sim::BatteryOptions> parse_battery(std::string_view text);

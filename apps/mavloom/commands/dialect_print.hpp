@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Formats message definitions for `mavloom dialect`: columns for people, one JSON object a line for programs.
+// Formats message definitions for `mavloom dialect`: columns for people, one JSON object per line for programs.
 // Each function appends to `out`. docs/guide/dialects.md lists the JSON keys.
 #pragma once
 

@@ -39,7 +39,7 @@ public:
         if (csv_ != nullptr) message::append_csv_header(output_.buffer(), *csv_);
         const Signals signals([](void* receiver) noexcept { static_cast<feed::Receiver*>(receiver)->stop(); },
                               &receiver_);
-        say_ports(common_, receiver_.endpoints());
+        log_ports(common_, receiver_.endpoints());
         const auto end = options_.receive.end(mono_now());
         output_.end_at(end);
         receiver_.start(end);
@@ -99,7 +99,7 @@ private:
         if (output_.state() == Output::State::failed) return fail(output_.error());
         const auto unprinted = count_unprinted();
         if (options_.stats) report(unprinted);
-        if (!options_.stats) say_losses(common_, receiver_.totals());
+        if (!options_.stats) log_losses(common_, receiver_.totals());
         if (unprinted != 0)
             print_notice(common_, counted(unprinted, "message") +
                                       " received but not printed: the output had stalled at the end");

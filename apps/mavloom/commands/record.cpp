@@ -126,7 +126,7 @@ Exit record(const Common& common, RecordOptions& options) {
     auto receiver = options.receive.open(common, *dialect);
     if (!receiver) return fail(receiver.error());
     const Signals signals([](void* r) noexcept { static_cast<feed::Receiver*>(r)->stop(); }, receiver->get());
-    say_ports(common, (*receiver)->endpoints());
+    log_ports(common, (*receiver)->endpoints());
     auto writer = create_output(common, options.file);
     if (!writer) return Signals::received() ? Signals::status(Exit::failed) : fail(writer.error());
     const MonoTime end = options.receive.end(mono_now());
@@ -136,8 +136,8 @@ Exit record(const Common& common, RecordOptions& options) {
     (*receiver)->join();
     if (!recorded) give_up_the_rest(options, **receiver, *writer);
     auto closed = writer->close();
-    say_recorded(common, *writer);
-    say_losses(common, (*receiver)->totals());
+    log_recorded(common, *writer);
+    log_losses(common, (*receiver)->totals());
     const auto status = options.json ? print_at_end(summary(*writer, (*receiver)->totals()), Exit::done) : Exit::done;
     if (!recorded) return fail(recorded.error());
     if (!closed) return fail(closed.error());

@@ -82,7 +82,7 @@ private:
 // Prints the relay's results: as log lines, and as one JSON object.
 void say_report(const Common& common, const feed::Destinations& destinations, const edit::Counters& c,
                 const feed::RelayOutcome& outcome) {
-    say_sums(common, destinations);
+    log_sums(common, destinations);
     print_notice(
         common, fmt::format("{} in, {} decoded and re-encoded, {} passed untouched", counted(c.frames.value(), "frame"),
                             c.reencoded.value(), c.passed_untouched.value()));
@@ -98,7 +98,7 @@ void say_report(const Common& common, const feed::Destinations& destinations, co
     unless_zero("signature_removed", c.signature_removed.value(), "changed frame",
                 "sent without a signature (--sign adds a new one)");
     unless_zero("unheard_answers", outcome.unheard_answers, "answer", "from the far side for which there was no source");
-    say_losses(common, outcome.totals);
+    log_losses(common, outcome.totals);
 }
 
 std::string summary(const feed::Destinations& destinations, const edit::Counters& c, const feed::RelayOutcome& outcome) {
@@ -229,7 +229,7 @@ Exit relay(const Common& common, RelayOptions& options) {
     if (auto opened = open_sources(options, *sources); !opened) return fail(opened.error());
     if (auto good = check_no_loop(sources->links().endpoints(), options.to); !good) return fail(good.error());
     const Signals signals([](void* s) noexcept { static_cast<feed::Sources*>(s)->wake(); }, &*sources);
-    say_ports(common, sources->links().endpoints());
+    log_ports(common, sources->links().endpoints());
     auto destinations = open_destinations(common, options.to, sources->links());
     if (!destinations) return Signals::received() ? Signals::status(Exit::failed) : fail(destinations.error());
     const auto end = options.duration.empty() ? MonoTime::max()

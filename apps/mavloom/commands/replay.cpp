@@ -96,7 +96,7 @@ private:
 
     Exit finish() {
         const auto closed = destinations_.close();
-        say_sums(common_, destinations_);
+        log_sums(common_, destinations_);
         const auto& counters = sources_.recordings().front()->reader.counters();
         if (!options_.start.empty() && frames_ == 0 && sources_.finished_recordings() && sources_.error() == nullptr)
             print_notice(common_, fmt::format("the recording ends before --start {}", options_.start));

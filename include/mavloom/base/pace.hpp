@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Limits how often something happens: some times at once after a rest, then at a steady rate. Plain value; time is a
-// parameter.
+// Limits how often something may happen: a burst after a rest, then a steady rate. Plain value; time is a parameter.
 #pragma once
 
 #include <algorithm>
@@ -11,18 +10,19 @@ namespace mavloom {
 
 class Pace {
 public:
-    constexpr Pace(Nanoseconds one_each, int at_once) noexcept : one_each_(one_each), lead_((at_once - 1) * one_each) {}
+    // Allows one event per `interval`, and up to `burst` events at once after a rest.
+    constexpr Pace(Nanoseconds interval, int burst) noexcept : interval_(interval), lead_((burst - 1) * interval) {}
 
-    // Returns whether it may happen now. If so, counts it.
+    // Returns whether the event may happen now. If so, counts it.
     [[nodiscard]] constexpr bool take(MonoTime now) noexcept {
         next_ = std::max(next_, now - lead_);
         if (now < next_) return false;
-        next_ += one_each_;
+        next_ += interval_;
         return true;
     }
 
 private:
-    Nanoseconds one_each_, lead_;
+    Nanoseconds interval_, lead_;
     MonoTime next_{};
 };
 

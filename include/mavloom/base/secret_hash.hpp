@@ -17,7 +17,8 @@ namespace mavloom {
 class SecretHash {
 public:
     constexpr SecretHash(std::uint64_t a, std::uint64_t b) noexcept : a_(a), b_(b) {}
-    // Reads a new secret from the kernel. If the kernel has none, the hash is not secret.
+    // Takes a new secret from the kernel. If the kernel has no random numbers yet, uses fixed values, which a sender
+    // can know.
     [[nodiscard]] static SecretHash random() noexcept;
 
     [[nodiscard]] constexpr std::uint64_t operator()(std::uint64_t key, std::uint64_t more = 0) const noexcept {

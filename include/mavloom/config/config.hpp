@@ -90,7 +90,7 @@ struct Config {
     std::vector<endpoint::Endpoint> endpoints;
 
     std::vector<Section> sections;  // all of the above as text, for `mavloom check`
-    // Oddities that are not errors. Report each of them once.
+    // Anything unusual that is not an error, one line each. Report each line once.
     std::vector<std::string> notes;
 };
 

@@ -4,9 +4,9 @@
 // The Unix stream socket takes one JSON request per line and answers with JSON lines (docs/guide/route.md). The HTTP
 // address, if there is one, serves metrics to Prometheus.
 //
-// Both run on one thread of their own, the control thread. It posts each request to the program's thread, which copies
-// its counters in pieces, each between two turns of its loop. The control thread then formats the answer in pieces, at
-// a low priority. It sends each piece after the client has taken the previous one. Up to 64 clients of each kind can be
+// The control thread serves both. It posts each request to the program's thread. That thread copies its counters in
+// pieces, one piece between two turns of its loop. The control thread then formats the answer in pieces, at a low
+// priority. It sends each piece after the client has taken the previous one. Up to 64 clients of each kind can be
 // connected. A further client replaces the one that has been idle longest.
 //
 // The socket is RUN/NAME.ctl, mode 0600. `net::run_path` chooses the folder RUN: $MAVLOOM_RUN if set, else

@@ -16,8 +16,8 @@ using Lines = std::vector<std::string>;
 template <class Text>
 using Later = std::function<Text()>;
 
-// An answer that is copied and formatted in pieces. So no turn of the owner's loop spends long on it, and a slow client
-// takes little memory.
+// An answer that is copied and formatted in pieces. This keeps each turn of the owner's loop short, and limits the
+// memory that a slow client occupies.
 struct Report {
     // The owner's thread calls this between two turns. It copies one piece of the data, in less than a millisecond, and
     // returns true while something is left. Empty if there is nothing to copy.

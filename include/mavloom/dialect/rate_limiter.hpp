@@ -34,8 +34,8 @@ public:
 
     [[nodiscard]] bool limits() const noexcept { return !rates_.empty(); }
 
-    // Checks whether a frame is within its rate, without counting it. Each lane has the whole rate: frames of one lane
-    // take nothing from those of another.
+    // Checks whether a frame is within its rate, without counting it. Frames with different `lane` values are limited
+    // separately: each lane may use the full rate.
     [[nodiscard]] Answer ask(const wire::FrameView& frame, Time now, std::uint8_t lane = 0) noexcept {
         const Nanoseconds* const interval = limits() ? rates_.interval_of(frame.id()) : nullptr;
         if (interval == nullptr) return {};

@@ -40,7 +40,7 @@ private:
         std::optional<Nanoseconds> interval{};  // empty: never limited
     };
     [[nodiscard]] SetupResult<void> add(const Dialect& dialect, const RateTerm& term);
-    void spare_what_cannot_be_thinned(const Dialect& dialect);
+    void exempt_unthinnable_messages(const Dialect& dialect);
 
     std::vector<Rule> rules_;  // by ascending id
     std::optional<Nanoseconds> others_;

@@ -74,7 +74,7 @@ struct EndpointOptions {
     // A vehicle that is alive on another link is not learned here (learn=first).
     bool learns_first = false;
     bool required = false;
-    // udpin: other sockets of this kind may bind the same port. The newest of them receives.
+    // udpin: other sockets with this option may bind the same port. The newest of them receives.
     bool reuse = false;
     std::optional<HostPort> bind;
     bool fixed = false;              // udpbcast: keeps broadcasting after a peer answers

@@ -30,7 +30,8 @@ struct EndpointStats {
     link::EndpointCounters endpoint;
     Totals ring;
     std::uint64_t peers = 0;
-    std::uint64_t answers = 0, unheard_answers = 0;  // from programs that read the ring which this endpoint fills
+    // Frames from readers of the ring that this endpoint fills, and those of them that reached no peer.
+    std::uint64_t answers = 0, unheard_answers = 0;
     Losses losses;
     std::map<MessageId, Channel::CrcErrors> crc_errors;
 };

@@ -36,7 +36,7 @@ public:
         const Asking asking(asking_);
         return Lock(mutex_);
     }
-    // Never waits for another thread, only for a `peek` to end. If the returned lock is not owned, another thread has
+    // Waits only while a `peek` holds the mutex, which is short. If the returned lock is not owned, another thread has
     // the mutex.
     [[nodiscard]] Lock try_take() {
         for (;;) {

@@ -37,8 +37,8 @@ public:
     // `dialect` must outlive the object.
     [[nodiscard]] static SetupResult<Sources> create(const dialect::Dialect& dialect, Copies copies = Copies::kept);
 
-    // Makes the checks that `add` begins with: that the options are valid, and that a tlog:// file exists and is a
-    // recording. Neither opens the endpoint for use nor waits.
+    // Runs the checks that `add` makes first: the options must be valid, and a tlog:// file must exist and be a
+    // recording. Leaves the endpoint closed, and never waits.
     [[nodiscard]] SetupResult<void> check(const endpoint::Endpoint& endpoint) const;
 
     // Opens the endpoint. If a ring does not exist, the source reports it through `on_notice` and waits indefinitely. A

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The properties of a simulated vehicle: kind, autopilot, home, seed and others. Plain values with defaults; no errors
-// here, because
-// module simserve checks what users type. docs/guide/sim.md describes every key.
+// The properties of a simulated vehicle: kind, autopilot, home, seed and others. Plain values with defaults. Nothing
+// here reports errors: module simserve checks what users type. docs/guide/sim.md describes every key.
 #pragma once
 
 #include <cstddef>

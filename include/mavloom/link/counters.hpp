@@ -27,7 +27,7 @@ struct LinkCounters {
     // Frames sent to a closed port. These are frames that an ICMP refusal answered, and frames sent in the second after
     // a refusal while the peer is silent.
     Counter refused;
-    // Frames not sent to a UDP peer that was heard once only: its address may be forged (docs/design/security.md).
+    // Frames not sent to a UDP peer that was heard only once: its address may be forged (docs/design/security.md).
     Counter unconfirmed;
     void add(const LinkCounters& other) noexcept;
     // Applies a sequence tracker's update to `lost`, `late`, `duplicate`, `resync` and `untracked`.
@@ -73,12 +73,12 @@ struct EndpointCounters {
     // Bytes of datagrams that came from unknown senders and held no valid frame (with verify=: no correctly signed
     // frame).
     Counter stray_bytes;
-    // New peers turned away: max_peers is reached, and no peer may be evicted; or very many new addresses send
-    // (docs/guide/queues.md).
+    // New peers turned away, for one of two reasons (docs/guide/queues.md). Either max_peers is reached and no peer may
+    // be evicted, or a flood of new addresses sends.
     Counter peers_refused;
-    Counter peers_limited;    // new peers turned away although they repeat, because too many do
+    Counter peers_limited;    // new peers turned away although they sent again, because too many did
     Counter peers_evicted;    // peers that were heard once or were idle, evicted for new ones
-    Counter peers_displaced;  // peers that talked and were still evicted for new ones (docs/guide/queues.md)
+    Counter peers_displaced;  // active peers that were evicted for new ones (docs/guide/queues.md)
     // Datagrams that the kernel rejected, or for which ICMP reported a closed port.
     Counter send_errors;
     Counter reconnects;

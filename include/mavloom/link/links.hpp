@@ -47,13 +47,13 @@ struct RxFrame {
     EndpointId endpoint;
     // The kernel's receive time. For tlog sources: the time in the recording.
     WallTime time{};
-    // How this frame changed the link's loss counters; valid during the call, never null. Empty if the owner counts
-    // loss (`count_loss`).
+    // How this frame changed the link's loss counters; valid during the call, never null. If the owner counts loss
+    // (`count_loss`), this is an update without changes.
     const wire::SequenceTracker::Update* sequence = &wire::no_loss;
     // From a ring: the verdict that its writer recorded for the frame (ring/frames.hpp).
     std::uint8_t ring_verdict = 0;
-    // The frame's signature is good, but another endpoint has heard the frame before. Somebody without the key may have
-    // sent it here.
+    // The frame's signature is good, but another endpoint has heard the frame before. A sender without the key may have
+    // replayed it here.
     bool is_repeated = false;
 };
 
@@ -68,7 +68,7 @@ public:
     // Bytes that look like a frame of this id but fail the checksum: damaged, or sent with another definition. Links
     // has already counted them.
     virtual void on_bad_checksum(LinkId, EndpointId, MessageId) {}
-    // An event that a person should see once, never once per packet: "udpin://…: listening (receive buffer 425984
+    // An event for the log, reported once and never per packet: "udpin://…: listening (receive buffer 425984
     // bytes)".
     virtual void on_notice(EndpointId, std::string_view /*text*/) {}
 };
@@ -140,8 +140,8 @@ public:
     void count_from(LinkId last) noexcept;
 
     // In a group, a fast link may deliver a sender's newer signed frames before a slow link delivers older ones. The
-    // older ones are still accepted for at most this time, and for at least a third of it. A caller that detects
-    // duplicates by their bytes must remember frames for longer than this.
+    // older ones are still accepted for a while: at least a third of this time, at most all of it. A caller that
+    // detects duplicates by their bytes must remember frames for longer than this.
     static constexpr Nanoseconds longest_late = std::chrono::milliseconds{1800};
 
     // Opens the endpoint. Local steps (bind, listen) happen at once, and a port in use is an error. Steps that need the
@@ -152,8 +152,8 @@ public:
     // queue frames. It must outlive the endpoint.
     [[nodiscard]] SetupResult<EndpointId> add(const endpoint::Endpoint& endpoint,
                                               const dialect::Dialect* dialect = nullptr);
-    // From now on, treats each endpoint as if it belonged to a program of its own. So several endpoints
-    // without name= may have the same address, and an endpoint accepts frames that another endpoint signed.
+    // From now on, treats each endpoint as if it belonged to a separate program. Several endpoints without name= may
+    // then have the same address, and an endpoint accepts frames that another endpoint signed.
     void make_independent() noexcept;
     // Returns whether another endpoint with the same address may be added.
     [[nodiscard]] bool allows_same_address(const endpoint::Endpoint& endpoint) const noexcept;

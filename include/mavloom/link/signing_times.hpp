@@ -29,8 +29,8 @@ public:
 
     // The last time that was signed with the key. The next signature must have a later time.
     [[nodiscard]] wire::SigningTime last() const noexcept;
-    // Notes the last time that was signed. Call it often: it saves every 2 s, and a program that is killed then signs
-    // no time again after its restart. `notices` receives errors of earlier writes.
+    // Records the last time that was signed. Call it often: it saves the time every 2 s, with a reserve. A program that
+    // was killed and restarted then never signs the same time twice. `notices` receives errors of earlier writes.
     void keep(wire::SigningTime last, MonoTime now, std::vector<std::string>& notices);
 
 private:

@@ -101,7 +101,8 @@ private:
     static constexpr std::size_t kept_capacity = 65536, kept_entries = 2048;
     // From these sizes on, memory matters more than the time to close gaps.
     static constexpr std::size_t large_bytes = 262'144, large_blocks = 8192;
-    // A queue that has needed little this many times in a row had a burst, not much traffic.
+    // After this many small uses in a row, the queue frees memory beyond `kept_capacity`: it came from a burst, not
+    // from steady traffic.
     static constexpr std::uint8_t rests_after = 255;
 
     Pushed push_when_full(ByteView block, std::uint8_t block_class, std::uint64_t key, MonoTime now);
@@ -139,7 +140,7 @@ private:
     std::array<std::size_t, classes> oldest_{};
 
     bool has_backlog_ = false;     // the outlet was blocked, or the queue was jammed
-    std::uint8_t small_uses_ = 0;  // how often in a row the queue became empty and had needed little
+    std::uint8_t small_uses_ = 0;  // consecutive times that the queue ran empty and had needed little
 
     // Used only while the queue is jammed: from the moment it reaches the byte bound until it is empty or rewound.
     // `newest_` is a hash table of keys: the index of a key's newest block plus one, or 0. `superseded_` lists the

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The queue of outgoing blocks of one link: two BlockQueues, of which the first leaves first. See
-// docs/design/queues.md.
+// The queue of outgoing blocks of one link: two BlockQueues, called lanes. The first lane is sent before the second.
+// See docs/design/queues.md.
 //
 // Each lane has its own bounds, so no block of one lane displaces a block of the other. Blocks of the second lane leave
 // only when the first lane is empty. A block that a stream has begun is sent to its end before any other. One datagram

@@ -60,9 +60,9 @@ public:
 
     // An unsorted copy of the rows. Faster than `sorted`.
     [[nodiscard]] std::vector<TrafficRow> rows() const;
-    // Copies rows in pieces, while the table changes between them: looks at the next `most` places from `from` (at
-    // first 0) and appends their rows to `to`. Returns the place to continue from, or `end` after the last. A row that
-    // exists throughout the copy is copied exactly once.
+    // Copies rows in pieces; the table may change between two pieces. Examines the next `most` places from `from` (0
+    // for the first piece) and appends their rows to `to`. Returns the place to continue from, or `end` after the last.
+    // A row that exists throughout the copy is copied exactly once.
     [[nodiscard]] std::size_t copy_rows(std::size_t from, std::size_t most, std::vector<TrafficRow>& to) const;
     static constexpr std::size_t end = SIZE_MAX;
     [[nodiscard]] std::size_t size() const noexcept { return rows_.size(); }

@@ -77,7 +77,7 @@ private:
     [[nodiscard]] bool is_removed() const noexcept;
     [[nodiscard]] SetupResult<void> begin_again();
     [[nodiscard]] SetupResult<void> end_segment();
-    [[nodiscard]] SetupResult<void> go_on_in(TlogWriter next);
+    [[nodiscard]] SetupResult<void> continue_in(TlogWriter next);
     [[nodiscard]] SetupResult<void> begin_segment(TlogWriter next, WallTime time);
     [[nodiscard]] std::filesystem::path free_name(WallTime time) const;
 

@@ -2,7 +2,7 @@
 // The counter page of a router's ring or of a simulator: link names, and copies of counters for other processes to
 // read.
 //
-// The owner's thread refreshes the copies from time to time. One owner thread.
+// One owner thread, which refreshes the copies from time to time.
 #pragma once
 
 #include <algorithm>

@@ -83,7 +83,7 @@ private:
     void recreate_ring();
     void take_new_ring(std::vector<std::string>& notices);
     template <class Work>
-    void work_beside(Work work);
+    void run_in_background(Work work);
     void carry_on(const std::map<LinkId, std::string>& names);
     void recreate_page(const link::Links& links, std::vector<std::string>& notices);
 
@@ -92,7 +92,7 @@ private:
     std::function<void()> ready_;
     shm::RingWriter writer_;
     std::future<SetupResult<shm::RingWriter>> making_;  // valid while the ring is being recreated
-    std::jthread beside_;
+    std::jthread background_;
     std::optional<RingPage> page_;
     Counter dropped_;  // frames that the ring did not take
     MonoTime page_due_{};

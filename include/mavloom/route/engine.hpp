@@ -46,7 +46,7 @@ struct LinkPolicy {
     GroupId group{};
     GroupMode group_mode = GroupMode::all;  // the first link of a group sets the mode of the group
     std::uint32_t group_order = 0;          // `primary` prefers the lowest; ties go to the lowest link id
-    // Links with the same number are peers of one endpoint. Anybody may become such a peer, so the engine does not
+    // Links with the same number are peers of one endpoint. Any sender may become such a peer, so the engine does not
     // assume that unverified ones lead to the same place, even within a group. 0: the only link of its endpoint.
     std::uint32_t endpoint = 0;
     // A tap gets every good frame from the other links, whatever its verdict. Frames from a tap go nowhere.
@@ -192,12 +192,13 @@ public:
     Engine& operator=(Engine&&) noexcept;
     ~Engine();
 
-    // Returns false if there are max_links links already, or if the id is 0 or in use. `address` is a number for the
-    // far end, the same when it connects again; 0 if unknown. A vehicle that comes back there is learned at once.
+    // Returns false if there are max_links links already, or if the id is 0 or in use. `address` identifies the
+    // far end, and is the same when the far end reconnects; 0 if unknown. A vehicle that returns from the same address
+    // is learned at once.
     bool add_link(LinkId link, const LinkPolicy& policy, std::uint64_t address = 0);
     // Forgets the link and its routes. Ignores an unknown id.
     void remove_link(LinkId link);
-    // The same for a link that was closed on purpose. Its vehicles keep no places.
+    // Like `remove_link`, for a link that was closed on purpose: any other link may learn its vehicles at once.
     void close_link(LinkId link);
     [[nodiscard]] std::size_t links() const noexcept;
     // Changes the rules. Links, routes, counters and remembered frames stay. `seed` and `recent_frames` are ignored:
@@ -210,9 +211,9 @@ public:
     // is valid until links or options change.
     [[nodiscard]] std::uint64_t mark_of(const wire::FrameView& frame) const noexcept;
     // Decides where the frame goes and learns its route. `info` is null for a message id without definition. `now`
-    // should not go backwards: an earlier time counts as the latest one seen. Takes at most some tens of nanoseconds.
-    // `is_repeated`: another link brought this signed frame earlier, so the sender need not have the key. The frame
-    // teaches no new route, and refreshes an existing one.
+    // should not go backwards: an earlier time counts as the latest one seen. Takes at most a few tens of nanoseconds.
+    // `is_repeated`: another link delivered this signed frame earlier, so a sender without the key may have replayed
+    // it. Such a frame refreshes an existing route, but adds none.
     [[nodiscard]] Decision route(const wire::FrameView& frame, std::uint64_t mark, const wire::MessageInfo* info,
                                  LinkId ingress, MonoTime now, bool is_repeated = false) noexcept;
     [[nodiscard]] Decision route(const wire::FrameView& frame, const wire::MessageInfo* info, LinkId ingress,
@@ -230,7 +231,7 @@ public:
 
     // Call this after `route` when a frame of `source` shows that its system restarted (see wire::SequenceTracker).
     // Forgets the system's routes on this link, except the one from `source`. Routes on other links stay, because
-    // anybody can forge a restart. A restart that another link reported in the last 10 s counts once.
+    // any sender can forge a restart. A restart that another link reported in the last 10 s counts once.
     void note_reboot(LinkId link, Source source, MonoTime now) noexcept;
 
     // The routes that have not timed out, sorted by system, component and link. Allocates.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Status reports of a router: JSON, one object a line, for `mavloom ctl` and `mavloom stat`, and Prometheus text.
+// Status reports of a router: JSON, one object per line, for `mavloom ctl` and `mavloom stat`, and Prometheus text.
 // docs/guide/route.md documents the keys.
 //
 // Call these functions and Report::copy_more on the router's thread, between two turns. Each call copies at most one

@@ -115,16 +115,15 @@ public:
     [[nodiscard]] bool is_retired() const noexcept { return consumer_.retired(); }
 
     [[nodiscard]] const std::string& name() const noexcept { return name_; }
-    [[nodiscard]] std::uint64_t position() const noexcept {
-        return consumer_.position();
-    }  // of the record in view, or of the next one
+    // The position of the record in view, or of the next one.
+    [[nodiscard]] std::uint64_t position() const noexcept { return consumer_.position(); }
     // End of the committed records.
     [[nodiscard]] std::uint64_t end_position() const noexcept;
     [[nodiscard]] std::uint64_t missed() const noexcept { return consumer_.missed(); }  // total
 
 private:
     RingReader(std::string name, const ReaderOptions& options, std::shared_ptr<Segment> segment);
-    // Ends a wait: the writer need not wake this reader, and the next wait starts afresh.
+    // Ends a wait: the writer no longer needs to wake this reader, and the next wait begins from the start.
     void woke() noexcept {
         consumer_.awake();
         waiting_since_ = {};

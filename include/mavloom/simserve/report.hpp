@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reports of a simulator: JSON, one object a line, for `mavloom ctl` and `mavloom sim --json`; text for people;
+// Reports of a simulator: JSON, one object per line, for `mavloom ctl` and `mavloom sim --json`; text for people;
 // metrics. docs/guide/sim.md documents the keys.
 //
 // Call the functions that take a Simulator on its thread. They only copy data; the function that they return makes the

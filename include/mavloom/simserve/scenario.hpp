@@ -43,7 +43,7 @@ struct Scenario {
     std::vector<SimEndpoint> endpoints{};
 
     std::vector<config::Section> sections{};  // all of the above as text, for `mavloom check`
-    std::vector<std::string> notes{};         // oddities that are not errors
+    std::vector<std::string> notes{};         // anything unusual that is not an error
 
     // The options of every vehicle, with its place and seed.
     [[nodiscard]] std::vector<ScenarioVehicle> each_vehicle() const;

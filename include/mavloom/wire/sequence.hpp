@@ -124,8 +124,8 @@ private:
     [[nodiscard]] static Update restarted(SequenceStats& stats, State& state, const FrameView& frame,
                                           const Update& update) noexcept;
 
-    // Pages of 64 components of a system that was heard. Each place holds an index into stats_ plus one, or 0 if the
-    // source is unheard. All that have no page share page 0, which stays empty.
+    // A table from source to index, in pages of 64 components of one system. Each place holds an index into stats_ plus
+    // one, or 0 if the source was not heard. Pages without a heard source share page 0, which stays empty.
     static constexpr std::size_t page_size = 64, page_count = 65536 / page_size;
     [[nodiscard]] static std::size_t page_number(Source source) noexcept;
     [[nodiscard]] std::size_t place_of(Source source) const noexcept;

@@ -127,7 +127,7 @@ public:
     // All streams, sorted by key. Store them and call `restore` after a restart, so that old frames count as replays.
     [[nodiscard]] std::span<const Stream> streams() const noexcept { return streams_; }
     // Restores a stream of an earlier run. A timestamp never goes back. A full table forgets its oldest stream, or
-    // ignores an older one.
+    // ignores the new one if that is older still.
     void restore(const Stream& stream) noexcept;
 
 private:

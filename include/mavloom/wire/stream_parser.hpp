@@ -58,8 +58,8 @@ public:
         settled_ = true;
     }
 
-    // Decides what can be decided if no bytes follow soon: whole frames of unknown id, and junk that more junk may
-    // follow. An incomplete frame still waits, also if it holds back frames.
+    // Decides what can be decided if no bytes follow soon: whole frames of unknown id, and a run of junk that may not
+    // have ended. An incomplete frame still waits, even if it holds back complete frames.
     template <class Sink>
     void settle(Sink&& sink) {
         begin_ += scanner_.scan(pending(), detail::End::idle, sink);

@@ -23,8 +23,8 @@ public:
     MavutilTypes(const PyDialect& dialect, const nb::iterable& names);
 
     [[nodiscard]] bool takes(const MavutilMessage& message) const noexcept;
-    // Whether any of them can arrive: those of the dialect, UNKNOWN_<id>, and BAD_DATA, which a connection returns that
-    // verifies signatures.
+    // Whether any of them can arrive. These are the messages of the dialect, UNKNOWN_<id>, and BAD_DATA, which a
+    // connection that verifies signatures returns.
     [[nodiscard]] bool has_any() const noexcept { return bad_data_ || !ids_.empty() || !unknown_.empty(); }
 
 private:
@@ -34,23 +34,25 @@ private:
 
 class MavutilLog {
 public:
-    // `bad_data(bytes, reason)` makes a message of the bytes that are no message. `state` is a MavutilState.
+    // `bad_data(bytes, reason)` creates the BAD_DATA message for damaged bytes. `state` is a MavutilState.
     MavutilLog(std::string path, const nb::object& dialect, nb::object bad_data, nb::object state);
 
-    // Reads the whole file: counts its messages, and notes the first one of each type, as pymavlink does
-    // when it opens a file. These, and further instances, also become messages of the target. Calls owner._notice() for
-    // those that concern it, and progress(percent) unless it is None. Returns {name: count}.
+    // Reads the whole file: counts its messages, and notes the first one of each type, as pymavlink does when it opens
+    // a file. The noted messages, and the first one of each further instance, also become messages of the target. Calls
+    // owner._notice() for the noted messages that the owner must examine, and progress(percent) unless it is None.
+    // Returns {name: count}.
     nb::dict index(const nb::object& owner, const nb::object& progress);
-    // Returns the next message; an invalid object at the end, until the file grows. Notes nothing.
+    // Returns the next message, without noting it. At the end of the file, returns an invalid object until the file
+    // grows.
     nb::object next();
-    // Returns the next message of these types, or None at the end. Notes every message that it passes, and
-    // calls owner._notice() for those that concern it.
+    // Returns the next message of these types, or None at the end. Notes every message up to that one, and calls
+    // owner._notice() for those that the owner must examine.
     nb::object match(const nb::object& owner, const MavutilTypes* types);
 
     void rewind();
     // The place of the last message that was returned, in percent of the file.
     [[nodiscard]] double percent();
-    // How many messages were returned, with BAD_DATA, and how many bytes they had.
+    // How many messages were returned, including BAD_DATA, and how many bytes they had.
     [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> totals();
     // How many of them are BAD_DATA.
     [[nodiscard]] std::uint64_t damaged();

@@ -35,7 +35,7 @@ public:
     double uptime_s = 0;       // the sender's clock, from the last message that has it
 
 private:
-    // Bounds the memory that ever new instance names can use.
+    // Bounds the memory that an endless series of new instance names can use.
     static constexpr Py_ssize_t most_messages = 4096;
 
     void add(const nb::dict& messages, const nb::object& message, const MavutilMessage& of);

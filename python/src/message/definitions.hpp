@@ -73,7 +73,7 @@ struct PyDialect {
     std::shared_ptr<MavutilStyle> style;
 };
 
-// Of an argument `dialect`; None is the built-in one.
+// Both convert an argument `dialect`. None means the built-in dialect, without a style.
 [[nodiscard]] std::shared_ptr<const Definitions> definitions_of(const nb::object& dialect);
 [[nodiscard]] std::shared_ptr<MavutilStyle> style_of(const nb::object& dialect);
 

@@ -22,9 +22,9 @@ class Origin {
 public:
     explicit Origin(std::shared_ptr<const Definitions> definitions, std::shared_ptr<MavutilStyle> style = nullptr)
         : definitions_(std::move(definitions)), style_(std::move(style)) {}
-    // Of an argument `dialect`.
+    // `dialect` is the argument of a Python function.
     explicit Origin(const nb::object& dialect) : Origin(definitions_of(dialect), style_of(dialect)) {}
-    // Of the same definitions and links as `other`, with another style.
+    // Shares the definitions and links of `other`, but has another style.
     Origin(const Origin& other, std::shared_ptr<MavutilStyle> style)
         : definitions_(other.definitions_), style_(std::move(style)), link_names_(other.link_names_) {}
 

@@ -32,7 +32,7 @@ enum class TextForm : std::uint8_t {
 // Sets an AttributeError that suggests the nearest field.
 void set_attribute_error(const dialect::Message& definition, std::string_view name);
 
-// Raises what is set if `value` is not valid.
+// Raises the pending Python exception if `value` is not valid.
 inline void set_item(nb::dict& dict, const nb::object& key, const nb::object& value) {
     if (!value.is_valid() || PyDict_SetItem(dict.ptr(), key.ptr(), value.ptr()) != 0) throw nb::python_error();
 }

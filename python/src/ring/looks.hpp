@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Looks: counts the accesses in progress to bytes that another thread may end. Any thread.
+// Looks: counts the accesses in progress to bytes whose lifetime another thread may end. Any thread.
 #pragma once
 
 #include <atomic>

@@ -84,7 +84,7 @@ bool PyRingWriter::write(const nb::object& data, const shm::RecordInfo& info) {
     check();
     const Buffer bytes(data);
     for (;;) {
-        let_claim_end();
+        wait_for_claim_end();
         const auto written = put_or_wait(bytes.bytes(), info);
         if (written) return true;
         if (written.error() != shm::WriteError::full) raise(written.error(), bytes.bytes().size());
@@ -135,7 +135,7 @@ void PyRingWriter::raise(shm::WriteError error, std::size_t length) const {
 
 // ---- claims
 
-void PyRingWriter::let_claim_end() {
+void PyRingWriter::wait_for_claim_end() {
     while (claimer_.load() != 0) {
         {
             const WithoutGil outside;
@@ -149,7 +149,7 @@ void PyRingWriter::let_claim_end() {
 std::shared_ptr<Claimed> PyRingWriter::claim(std::size_t length) {
     for (;;) {
         check();
-        let_claim_end();
+        wait_for_claim_end();
         auto claimed = claim_or_wait(length);
         if (claimed) return std::move(*claimed);
         if (claimed.error() != shm::WriteError::full) raise(claimed.error(), length);

@@ -89,7 +89,7 @@ private:
     // first.
     [[nodiscard]] feed::SlicedMutex::Lock lock_until(MonoTime deadline);
     // Waits until no other thread has a claim open.
-    void let_claim_end();
+    void wait_for_claim_end();
     [[nodiscard]] shm::WriteResult<std::shared_ptr<Claimed>> claim_or_wait(std::size_t length);
     [[nodiscard]] shm::WriteResult<std::shared_ptr<Claimed>> claim_locked(std::size_t length, MonoTime deadline);
     enum class Committed : std::uint8_t { yes, dropped, over, looked_at };

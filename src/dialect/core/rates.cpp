@@ -15,7 +15,7 @@ SetupResult<Rates> Rates::compile(const Dialect& dialect, std::span<const RateTe
     Rates rates;
     for (const RateTerm& term : terms)
         if (auto done = rates.add(dialect, term); !done) return tl::unexpected(std::move(done.error()));
-    if (rates.others_) rates.spare_what_cannot_be_thinned(dialect);
+    if (rates.others_) rates.exempt_unthinnable_messages(dialect);
     return rates;
 }
 
@@ -39,7 +39,7 @@ SetupResult<void> Rates::add(const Dialect& dialect, const RateTerm& term) {
     return {};
 }
 
-void Rates::spare_what_cannot_be_thinned(const Dialect& dialect) {
+void Rates::exempt_unthinnable_messages(const Dialect& dialect) {
     const auto named = rules_;
     for (const auto& message : dialect.messages()) {
         const bool is_named = std::ranges::binary_search(named, message.id().value, {}, &Rule::id);

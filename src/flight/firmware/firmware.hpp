@@ -60,7 +60,7 @@ public:
     [[nodiscard]] virtual const ModeInfo* mode_for(Behaviour behaviour) const noexcept = 0;
     [[nodiscard]] const ModeInfo* find_mode(std::uint32_t custom_mode) const noexcept;
     [[nodiscard]] const ModeInfo* find_mode(std::string_view name) const noexcept;  // case does not matter
-    // The mode that DO_SET_MODE or SET_MODE asks for. Null: there is none.
+    // The mode that DO_SET_MODE or SET_MODE asks for. Null if there is no such mode.
     [[nodiscard]] virtual const ModeInfo* requested_mode(std::uint8_t base_mode, std::uint32_t main,
                                                          std::uint32_t sub) const noexcept = 0;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which firmware knows a command or a message. Private to flight and sim.
+// Whether PX4, ArduPilot or both know a command or a message. Private to flight and sim.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Flies one manoeuvre at a time: turns it into set-points for the kind of vehicle. Private to flight; single owner;
-// nothing allocates. Positions are local; a plane circles where others stand still.
+// nothing allocates. Positions are local. Where other vehicles stay at a place, a plane circles around it.
 #pragma once
 
 #include <optional>
@@ -56,7 +56,7 @@ public:
     // goal.
     [[nodiscard]] bool is_near_goal(double radius) const noexcept;
     [[nodiscard]] bool has_goal_altitude() const noexcept;
-    // Angle flown around the present circle, rad.
+    // Angle flown around the current circle, rad.
     [[nodiscard]] double turned() const noexcept { return turned_; }
     [[nodiscard]] const std::optional<Circle>& present_circle() const noexcept { return circle_; }
 

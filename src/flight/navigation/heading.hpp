@@ -13,7 +13,7 @@ class Heading {
 public:
     explicit Heading(const FlightContext& context) noexcept : context_(context) {}
 
-    // Keeps the present heading, until something else is asked for.
+    // Keeps the current heading until another function changes it.
     void keep() noexcept { kept_ = context_.craft.estimate().euler.yaw; }
     // Carries out a client's order; a `nan` yaw ends it. `rate` in rad/s; `nan`: the usual rate.
     void turn_to(double yaw, double rate) noexcept;

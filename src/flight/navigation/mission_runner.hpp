@@ -26,7 +26,7 @@ public:
     void on_plan_changed();
     // Call it after arming. A finished mission starts over.
     void on_armed();
-    // Returns false if there is no such item. Without `seq`, restarts the present item. `resets` also forgets the jumps
+    // Returns false if there is no such item. Without `seq`, restarts the current item. `resets` also forgets the jumps
     // done so far.
     [[nodiscard]] bool set_current(std::optional<std::uint16_t> seq, bool resets);
     // The first item of the landing section, if the mission has one.
@@ -49,7 +49,7 @@ private:
     void finish_item();
     void complete();
 
-    // Begins or continues the present item. Returns true once the item is done.
+    // Begins or continues the current item. Returns true once the item is done.
     [[nodiscard]] bool fly();
     [[nodiscard]] bool fly_place();
     [[nodiscard]] bool fly_takeoff();

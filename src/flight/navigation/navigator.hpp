@@ -20,15 +20,15 @@ public:
 
     // Call it when the mode changes. Entering the same behaviour again changes nothing.
     void enter(Behaviour behaviour);
-    // Call it 50 times a second. When the present behaviour is done, returns the behaviour to enter next.
+    // Call it 50 times a second. When the current behaviour is done, returns the behaviour to enter next.
     [[nodiscard]] std::optional<Behaviour> update();
     // Like Airframe::move_origin.
     void move_origin(const Vector3& by) { guidance_.move_origin(by); }
 
-    // --- Orders within the present behaviour.
+    // --- Orders within the current behaviour.
     void take_off(double z, double yaw);
     void orbit(const Circle& circle, double turns);
-    // `pause` stops the vehicle where it is; `resume` continues. A mission continues with its present item.
+    // `pause` stops the vehicle where it is; `resume` continues. A mission continues with its current item.
     void pause();
     void resume();
 
@@ -57,7 +57,7 @@ private:
     ManualControl manual_;
     OffboardControl offboard_;
     Behaviour behaviour_ = Behaviour::unavailable;
-    double turns_ = 0;  // to fly around an orbit; 0: for ever
+    double turns_ = 0;  // to fly around an orbit; 0: no limit
     bool is_paused_ = false;
 };
 

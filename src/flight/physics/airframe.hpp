@@ -29,7 +29,7 @@ inline constexpr double step_s = 0.004;
 struct Kinematics {
     Vector3 position = Vector3::Zero();
     Vector3 velocity = Vector3::Zero();
-    Vector3 acceleration = Vector3::Zero();  // dv/dt, without gravity's share
+    Vector3 acceleration = Vector3::Zero();  // dv/dt; 0 at rest, unlike an accelerometer
     Quaternion attitude = Quaternion::Identity();
     Vector3 rates = Vector3::Zero();  // rad/s, body frame
 };
@@ -71,7 +71,7 @@ struct Setpoint {
 
 // Air, ground and supply around the vehicle during one step.
 struct Surroundings {
-    Vector3 wind = Vector3::Zero();  // m/s, the direction that the air moves to
+    Vector3 wind = Vector3::Zero();  // m/s, in the direction in which the air moves
     double ground = 0;               // `position.z` of the ground below
     double air_density = 1.225;      // kg/m^3
     double supply = 1;               // battery voltage relative to full; scales the thrust
@@ -97,7 +97,7 @@ struct Actuators {
 // How the kinds of vehicles read a Setpoint, beyond what its comments state:
 //
 // Plane, in trajectory, waypoint and circle:
-// - On the ground, an armed plane with a target above the ground starts a take-off run: full throttle along the present
+// - On the ground, an armed plane with a target above the ground starts a take-off run: full throttle along the current
 //   heading until the wings carry. It then climbs at `limits.up`, with little bank near the ground. Without such a
 //   target, it brakes.
 // - `touch_down`: the plane descends along the leg to `position` (or by `limits.down` in a circle or trajectory),

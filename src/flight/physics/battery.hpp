@@ -13,7 +13,7 @@ public:
 
     // `load` as in Airframe::load.
     void step(double load, double dt) noexcept;
-    // Sets the charge to `share` (0 to 1), and lets charging stop there. For tests of fail-safes.
+    // Sets the charge to `share` (0 to 1). From now on, `charge` stops at that level. For tests of fail-safes.
     void set_remaining(double share) noexcept;
     // Charges for `dt` seconds, up to the charge at the start. A parked vehicle is therefore soon ready again, as with
     // PX4's simulated battery.
@@ -22,7 +22,7 @@ public:
     [[nodiscard]] std::uint8_t cells() const noexcept { return cells_; }
     [[nodiscard]] double remaining() const noexcept;                    // 0 to 1
     [[nodiscard]] double current() const noexcept { return current_; }  // A
-    [[nodiscard]] double voltage() const noexcept;                      // V, of all cells, under the present load
+    [[nodiscard]] double voltage() const noexcept;                      // V, of all cells, under the current load
     [[nodiscard]] double used_mah() const noexcept { return used_mah_; }
     [[nodiscard]] double used_joule() const noexcept { return used_joule_; }
     [[nodiscard]] double capacity_mah() const noexcept { return capacity_mah_; }

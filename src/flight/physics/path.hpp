@@ -9,7 +9,7 @@ namespace mavloom::flight {
 
 struct Course {
     double angle = 0;        // rad, the direction to move in
-    double turn_rate = 0;    // rad/s, positive clockwise: the turn of the path itself at the present velocity
+    double turn_rate = 0;    // rad/s, positive clockwise: the turn of the path itself at the current velocity
     double cross_track = 0;  // m; positive: right of the line, or outside of the circle
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Random numbers of a vehicle: one seeded generator, so that runs repeat bit by bit on every machine. Private to flight
-// and sim. Header only, because noise is drawn thousands of times a second. xoshiro256++ by Blackman and Vigna
+// Random numbers of a vehicle: one seeded generator, so that runs repeat bit for bit on every machine. Private to
+// flight and sim. Header only, because noise is drawn thousands of times a second. xoshiro256++ by Blackman and Vigna
 // (https://prng.di.unimi.it), seeded through splitmix64. std::normal_distribution is not used: each standard library
 // gives different numbers.
 #pragma once

@@ -33,7 +33,7 @@ private:
     void move(const Demand& demand, double ground);
     void report(const Demand& demand);
 
-    SpeedLimits limits_;  // of the present set-point, bounded
+    SpeedLimits limits_;  // of the current set-point, bounded
     double heading_ = 0, speed_ = 0, curvature_ = 0;
 };
 

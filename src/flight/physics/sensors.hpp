@@ -54,7 +54,7 @@ public:
     void move_origin(const Vector3& by);
     void set_failures(const SensorFailures& failures) noexcept { failures_ = failures; }
     [[nodiscard]] const SensorFailures& failures() const noexcept { return failures_; }
-    // True: GPS has a fix from now on. Until then, fix_type is 1.
+    // Sets whether GPS has a fix. Without one, fix_type is 1.
     void acquire_gps(bool acquired) noexcept { gps_acquired_ = acquired; }
 
     [[nodiscard]] const Estimate& estimate() const noexcept { return estimate_; }

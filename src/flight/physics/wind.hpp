@@ -28,7 +28,7 @@ public:
             velocity_[static_cast<int>(axis)] = steady_[static_cast<int>(axis)] + gusts_[axis].value();
         }
     }
-    // m/s, the direction that the air moves to.
+    // m/s, in the direction in which the air moves.
     [[nodiscard]] const Vector3& velocity() const noexcept { return velocity_; }
 
 private:

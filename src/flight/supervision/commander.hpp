@@ -17,7 +17,7 @@ public:
     // The firmware's mode for a behaviour; `unsupported` if it has none.
     Outcome enter(Behaviour behaviour, OrderedBy by);
     Outcome terminate();
-    // Carries out the action of a fail-safe. If the present mode brings the vehicle down sooner, the vehicle stays in
+    // Carries out the action of a fail-safe. If the current mode brings the vehicle down sooner, the vehicle stays in
     // that mode.
     void perform(FailsafeAction action);
     // Call it when the reason for the fail-safe is gone: the vehicle continues in the mode that the client asked for.

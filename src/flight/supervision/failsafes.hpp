@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Watches battery, links, position and fence, and has the Commander act. Private to flight; single owner.
-// Source: PX4 user guide, "Safety Configuration (Failsafes)".
+// Watches battery, links, position and fence. If one of them fails, makes the Commander act. Private to flight; single
+// owner. Source: PX4 user guide, "Safety Configuration (Failsafes)".
 #pragma once
 
 #include "flight/supervision/commander.hpp"

@@ -10,7 +10,7 @@ class LandedDetector {
 public:
     explicit LandedDetector(FlightContext& context) noexcept : context_(context) {}
 
-    // The navigator's present manoeuvre.
+    // The navigator's current manoeuvre.
     struct Phase {
         bool climbs = false, lands = false;
         bool is_home = false;  // a rover has arrived

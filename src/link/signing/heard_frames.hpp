@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Recognises signed frames that the process has heard before, on any of its endpoints. Somebody without the key can
-// read such a frame and send it again.
+// Recognises signed frames that the process has heard before, on any of its endpoints. An attacker without the key can
+// read such a frame and replay it.
 //
-// The class remembers the signatures of the frames of the last 0.6 to 1.8 s (LateFrames), up to about 65,000. It does
-// not remember older frames of the same sender: they are too late. So old frames, sent again, cannot push new ones out.
+// The class remembers the signatures of the frames of the last 0.6 to 1.8 s (LateFrames), up to about 65,000. It
+// refuses older frames of the same sender as too late, without remembering them. Replays of old frames therefore cannot
+// evict new ones.
 //
 // Private to module link; single owner thread; allocates only for a new sender.
 #pragma once
@@ -30,7 +31,7 @@ public:
     // timestamp or an older one are too late.
     [[nodiscard]] Verdict hear(const wire::FrameView& frame, MonoTime now, wire::SigningTime refused_until = {}) {
         const auto [sender, time] = wire::Verifier::stream_of(frame);
-        // Only somebody with the key can name so many senders.
+        // Only a holder of the key can sign for so many senders.
         if (newest_.size() == most_senders && !newest_.contains(sender)) forget_senders();
         wire::SigningTime& newest = newest_.try_emplace(sender, refused_until).first->second;
         const bool is_late = late_.is_too_late(sender, time, newest, now);

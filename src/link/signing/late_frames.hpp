@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Separates late frames from replays among signed frames that arrive over several links: those of a group, or all.
 //
-// For each sender, the class keeps a mark. It was taken at a moment between `least` and `oldest` ago, and is the newest
-// timestamp that these links had received by then. A frame with a newer timestamp than the mark is accepted. If such a
-// frame is a replay, the original arrived after that moment. The router still remembers the original and so detects the
-// replay by its bytes: it remembers frames for longer than Links::longest_late. Under a flood of other frames the
-// router may forget frames early; its counter `recent_evicted` shows that.
+// For each sender, the class keeps a mark: the newest timestamp that these links had received at a moment between
+// `least` and `oldest` ago. A frame with a newer timestamp than the mark is accepted. If such a frame is a replay, the
+// original arrived after that moment. The router still remembers the original and so detects the replay by its bytes:
+// it remembers frames for longer than Links::longest_late. Under a flood of other frames the router may forget frames
+// early; its counter `recent_evicted` shows that.
 //
 // Only arrival times count, because signers' clocks need not match ours. Private to module link; single owner thread;
 // allocates only for a new sender.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Recognises frames that this process signed and that somebody sends back to it. Without this check, a sender that does
-// not have the key would pass as one that has it.
+// Recognises frames that this process signed and that another program sends back to it. Without this check, a sender
+// that does not have the key would pass as one that has it.
 //
 // A frame with one of our link ids counts as ours in two cases: SignatureMarks remembers its signature, or its time is
 // not newer than the newest one that SignatureMarks has dropped for it. So frames of another program with the same key

@@ -36,7 +36,8 @@ public:
     [[nodiscard]] bool verifies() const noexcept { return verifying_key_ != nullptr; }
     [[nodiscard]] bool signs() const noexcept { return signer_.has_value(); }
     [[nodiscard]] bool accepts(const wire::FrameView& frame, WallTime now) noexcept;
-    // True if another endpoint had already heard the last accepted frame. Somebody without the key may have sent it.
+    // True if another endpoint had already heard the last accepted frame. It may be a replay by a sender without the
+    // key.
     [[nodiscard]] bool is_repeated() const noexcept { return is_repeated_; }
     // Like `accepts`, for a frame whose bytes the link's parser will find again. `accepts` then does not treat that
     // second appearance as a replay. Does not accept repeated frames.

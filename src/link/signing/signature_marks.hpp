@@ -12,7 +12,7 @@
 
 namespace mavloom::link::detail {
 
-// All frames that it gets are signed. Before `start`, only `is_started` may be called.
+// All frames passed to it must be signed. Before `start`, only `is_started` may be called.
 class SignatureMarks {
 public:
     void start() {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Counts the clients of a tcpin that have sent no good frame yet, by their addresses. When the endpoint is full, one
-// from the address with most of them makes room. So a client that connects again and again keeps out only those that
-// share its address. An address cannot be forged, because a TCP connection needs answers. Private to module link;
-// single owner thread.
+// Counts the clients of a tcpin that have sent no good frame yet, by their addresses. When the endpoint is full, it
+// closes a client of the address with the most of them. A program that connects again and again therefore keeps out
+// only clients that share its address. An address cannot be forged, because a TCP connection needs answers. Private to
+// module link; single owner thread.
 #pragma once
 
 #include <algorithm>

@@ -60,7 +60,7 @@ SetupResult<endpoint::Endpoint> parse_router_endpoint(std::string_view text) {
 
 Report answer_request(Router& router, std::string_view request) {
     const auto parsed = Json::parse(request, nullptr, false);
-    if (!parsed.is_object()) return failed("a request is one JSON object a line, as in {\"cmd\":\"links\"}");
+    if (!parsed.is_object()) return failed("a request is one JSON object per line, as in {\"cmd\":\"links\"}");
     const auto command = text_at(parsed, "cmd");
     if (command == "links") return report_links(router);
     if (command == "routes") return report_routes(router);

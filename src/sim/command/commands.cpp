@@ -114,7 +114,7 @@ void Commands::acknowledge(const Client& to, std::uint16_t command, Result resul
 
 // --- Commands that take time
 
-Result Commands::begin(const Command& command, Nanoseconds length, bool (*may_go_on)(const Parts&), Moment now) {
+Result Commands::begin(const Command& command, Nanoseconds length, bool (*may_continue)(const Parts&), Moment now) {
     const auto running = std::ranges::find(tasks_, command.id, &Task::command);
     if (running != tasks_.end())
         return running->client == command.from ? Result::in_progress : Result::temporarily_rejected;
@@ -123,7 +123,7 @@ Result Commands::begin(const Command& command, Nanoseconds length, bool (*may_go
                       .begun = now.flight,
                       .reports = now.flight + task_report_interval,
                       .length = length,
-                      .may_go_on = may_go_on});
+                      .may_continue = may_continue});
     return Result::in_progress;
 }
 
@@ -143,7 +143,7 @@ void Commands::pump(Moment now) {
 
 bool Commands::move_on(Task& task, FlightTime now) {
     const bool is_done = now - task.begun >= task.length;
-    const bool has_failed = task.may_go_on != nullptr && !task.may_go_on(parts_);
+    const bool has_failed = task.may_continue != nullptr && !task.may_continue(parts_);
     const Result result = has_failed ? Result::failed : is_done ? Result::accepted : Result::in_progress;
     acknowledge(task.client, task.command, result, task.percent(now));
     task.reports = now + task_report_interval;

@@ -66,8 +66,8 @@ public:
     void reboot() override { tasks_.clear(); }
     void forget(LinkId link) override;
 
-    // Starts work that takes `length`. It fails as soon as `may_go_on` is false. A repeated command changes nothing.
-    Result begin(const Command& command, Nanoseconds length, bool (*may_go_on)(const Parts&), Moment now);
+    // Starts work that takes `length`. It fails as soon as `may_continue` is false. A repeated command changes nothing.
+    Result begin(const Command& command, Nanoseconds length, bool (*may_continue)(const Parts&), Moment now);
 
 private:
     struct Task {
@@ -75,7 +75,7 @@ private:
         std::uint16_t command = 0;
         FlightTime begun{}, reports{};  // `reports`: when it reports its progress next
         Nanoseconds length{};
-        bool (*may_go_on)(const Parts&) = nullptr;
+        bool (*may_continue)(const Parts&) = nullptr;
 
         [[nodiscard]] std::uint8_t percent(FlightTime now) const noexcept;
     };
@@ -97,7 +97,7 @@ private:
 [[nodiscard]] std::span<const CommandRow> payload_commands() noexcept;      // gimbal, actuators, camera, logging
 // Carries out a mission item of payload_commands() as an order of the vehicle itself. Ignores all other items.
 void carry_out_payload_item(Parts& parts, const PlanItem& item);
-// Null: this firmware does not know the command.
+// Null if this firmware does not know the command.
 [[nodiscard]] const CommandRow* find_command(std::uint16_t id, bool is_px4) noexcept;
 
 }  // namespace mavloom::sim

@@ -25,7 +25,7 @@ struct EventInfo {
 };
 
 [[nodiscard]] std::span<const EventInfo> event_infos() noexcept;
-// Null: the catalog has no such event.
+// Null if the catalog has no such event.
 [[nodiscard]] const EventInfo* find_event(std::uint32_t id) noexcept;
 // The id without the component.
 [[nodiscard]] constexpr std::uint32_t event_sub_id(const EventInfo& info) noexcept { return info.id & 0xffffff; }

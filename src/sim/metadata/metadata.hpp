@@ -26,7 +26,7 @@ struct GeneralMetadata {
     std::uint32_t file_crc = 0;  // of the JSON before compression, as in PX4
 };
 
-// Empty: this firmware has no metadata. REQUEST_MESSAGE for it is then UNSUPPORTED.
+// Empty if this firmware has no metadata. REQUEST_MESSAGE for it is then UNSUPPORTED.
 [[nodiscard]] std::optional<GeneralMetadata> general_metadata(const Firmware& firmware);
 
 // The paths of the files, without leading slash.

@@ -3,8 +3,8 @@
 // Private to module sim; single owner. Source: MAVLink common.xml; PX4 guide, "Offboard Mode"; ArduPilot's developer
 // guide, "Copter Commands in Guided Mode".
 //
-// A field that its mask leaves out, or that is NaN, is not given. A message that gives nothing, or something infinite,
-// has no effect; the vehicle reports that by a text, at most once a second.
+// A field counts as not given if the message's mask excludes it, or if it is NaN. A message without a given field, or
+// with an infinite one, has no effect. The vehicle reports that by a text, at most once a second.
 #pragma once
 
 #include <array>

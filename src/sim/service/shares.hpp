@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shares the places that a service has for its clients among the links. A client may use any number of ids, so one that
-// takes all places keeps out only the clients of its own link. Private to module sim.
+// Divides a service's places for clients among the links. A client can invent any number of ids. If it takes all
+// places, it keeps out only the clients of its own link. Private to module sim.
 #pragma once
 
 #include <algorithm>

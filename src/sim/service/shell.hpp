@@ -29,7 +29,7 @@ private:
     };
     static constexpr std::size_t longest_line = 128;
 
-    // Null: too many clients.
+    // Null if there are too many clients.
     Session* session_of(const Client& client);
     void read(Session& session, ByteView bytes);
     [[nodiscard]] std::string answer(std::string_view line) const;

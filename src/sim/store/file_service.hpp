@@ -3,8 +3,8 @@
 //
 // Sessions belong to a client and have the number that the client gave when it opened the file. QGroundControl takes
 // the number from the reply, MAVSDK always uses 0, MAVProxy and pymavlink count their own. A request that is repeated
-// byte by byte gets the same reply again, without being carried out twice. A session ends after 10 s without a request.
-// Requests for too many checksums get no reply; clients repeat them.
+// byte for byte gets the same reply again, without being carried out twice. A session ends after 10 s without a
+// request. Requests for too many checksums get no reply; clients repeat them.
 #pragma once
 
 #include <array>
@@ -79,7 +79,7 @@ private:
     };
 
     void answer(Peer& peer, const Request& request);
-    // Returns false if there is no single reply: a burst has begun, or the vehicle sums up too much.
+    // Returns false if there is no single reply: a burst has begun, or too many checksums were requested.
     [[nodiscard]] bool carry_out(Peer& peer, const Request& request, Reply& reply);
     void end_session(Peer& peer, const Request& request, Reply& reply);
     void list(const Request& request, Reply& reply, bool with_time);
@@ -89,7 +89,7 @@ private:
     void write(Peer& peer, const Request& request, Reply& reply);
     void begin_burst(Peer& peer, const Request& request, Reply& reply);
     void rename(const Request& request, Reply& reply);
-    // Returns false if the vehicle has summed up too much.
+    // Returns false if too many checksums were requested.
     [[nodiscard]] bool checksum(const Request& request, Reply& reply);
     // For operations on a path that answer without data.
     template <class Operation>
@@ -101,10 +101,10 @@ private:
     void send_pieces(Peer& peer, Moment now);
     [[nodiscard]] std::size_t read_session(const Session& session, std::uint32_t offset, ByteSpan out) const;
 
-    // Null: there are too many clients.
+    // Null if there are too many clients.
     [[nodiscard]] Peer* find_peer(const Client& client, Moment now);
     [[nodiscard]] static Session* find_session(Peer& peer, std::uint8_t number) noexcept;
-    // Null: the client has too many open.
+    // Null if the client has too many sessions open.
     [[nodiscard]] Session* open_session(Peer& peer, const Request& request) const;
     [[nodiscard]] FileResult<std::string> path_of(std::string_view text) const;
 

@@ -64,7 +64,7 @@ public:
     // Sorted by name.
     [[nodiscard]] FileResult<std::vector<DirectoryEntry>> list(std::string_view path) const;
 
-    // Empty: the file was removed.
+    // Empty if the file was removed.
     [[nodiscard]] std::optional<std::uint32_t> size(const FileRef& file) const;
     // Returns the number of bytes read: fewer than requested at the end of the file.
     [[nodiscard]] std::size_t read(const FileRef& file, std::uint32_t offset, ByteSpan out) const;

@@ -46,7 +46,7 @@ private:
     };
     void on_list(const Client& from, ByteView payload);
     void on_data(const Client& from, ByteView payload);
-    // False: too many clients download.
+    // Returns false if too many clients download.
     [[nodiscard]] bool begin(const Download& download);
     void stop(const Client& client);
     void send_entry(const Client& to, std::uint32_t index);

@@ -52,7 +52,7 @@ private:
         std::uint32_t next_block = 0;  // ArduPilot
         std::vector<Block> blocks{};   // ArduPilot
     };
-    // Both: false if the stream is over.
+    // Both return false if the stream is over.
     [[nodiscard]] bool pump_messages(Stream& stream, Moment now);
     [[nodiscard]] bool pump_blocks(Stream& stream, Moment now);
     template <class Message>

@@ -38,8 +38,8 @@ private:
     enum class Stage : std::uint8_t {
         upload,
         download,
-        finished
-    };  // finished: an upload, kept to answer its last item again
+        finished,  // an upload that is complete; kept to acknowledge its last item again
+    };
     struct Transfer {
         Client client;
         PlanType type;

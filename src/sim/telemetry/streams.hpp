@@ -70,7 +70,7 @@ private:
         std::uint64_t sent = 0, skipped = 0;
         Lateness lateness{};
     };
-    // Bytes a second over a link, measured once a second.
+    // Bytes per second over a link, measured once a second.
     struct Meter {
         FlightTime at{};
         Radio::Totals totals{};
@@ -96,7 +96,7 @@ private:
     [[nodiscard]] FlightTime first_due(const LinkStreams& link, std::size_t index, FlightTime now) const noexcept;
     [[nodiscard]] View view_of(const View& view, LinkStreams& link, FlightTime at) const noexcept;
     void run_stream(LinkStreams& link, std::size_t index, View& view, FlightTime now);
-    // False: there is nothing to report.
+    // Returns false if there is nothing to report.
     bool send(LinkId link, Stream& stream, View& view, FlightTime due, FlightTime now);
     static void limit(LinkStreams& link, FlightTime now);
     static void note_next(LinkStreams& link) noexcept;

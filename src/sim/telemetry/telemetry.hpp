@@ -21,10 +21,10 @@ namespace mavloom::sim {
 // The traffic of a link, for LINK_NODE_STATUS.
 struct LinkTraffic {
     std::uint32_t sent = 0, received = 0;      // frames
-    std::uint32_t sent_s = 0, received_s = 0;  // bytes a second
+    std::uint32_t sent_s = 0, received_s = 0;  // bytes per second
 };
 
-// All that a projection may read.
+// Everything that a projection may read.
 struct View {
     const VehicleOptions& options;
     const Firmware& firmware;

@@ -15,7 +15,7 @@
 
 namespace mavloom::flight::wing {
 
-// All that the pilot knows of the plane.
+// Everything that the pilot knows about the plane.
 struct Situation {
     const Kinematics& motion;
     Euler euler;
