@@ -32,7 +32,7 @@ YEARS = 292  # before and after 1970: what a time in ns can hold
 
 
 def flat(arrays: dict[str, Array]) -> dict[str, Array]:
-    """The one-dimensional columns: one for each element of an array field. They are views of the arrays."""
+    """Returns the one-dimensional columns: one for each element of an array field. They are views of the arrays."""
     columns: dict[str, Array] = {}
     for name, values in arrays.items():
         if values.ndim == 2:
@@ -64,7 +64,7 @@ class Columns(dict[str, Array]):
     `json.dumps(cols, indent=1)` writes {}, because `len(cols)` is 0.
     """
 
-    # A dict, because pandas.DataFrame takes columns from nothing else. The dict itself holds the one-dimensional
+    # A dict, because pandas.DataFrame takes columns only from a dict. The dict itself holds the one-dimensional
     # columns, because json and other compiled code read it without calling the methods below.
 
     name: str
@@ -134,7 +134,7 @@ class Columns(dict[str, Array]):
         return list(self._arrays)
 
     def _refuse(self, *args: Any, **kwargs: Any) -> Any:
-        raise TypeError(f"the columns of {self.name} cannot be exchanged; make a dict of them: dict(cols.items())")
+        raise TypeError(f"the columns of {self.name} cannot be changed; make a dict of them: dict(cols.items())")
 
     __setitem__ = __delitem__ = __ior__ = _refuse  # pyright: ignore
     clear = pop = popitem = setdefault = update = _refuse  # pyright: ignore
@@ -362,7 +362,7 @@ def time_ns_of(what: str, given: Time | None) -> int | None:
     if isinstance(given, np.integer):
         return int(given)
     if given != given:  # numpy's or pandas' NaT
-        raise UsageError(f"{what}: {given} is no time")
+        raise UsageError(f"{what}: {given} is not a time")
     if isinstance(given, datetime.datetime):
         if given.tzinfo is None:
             raise UsageError(f"{what}: {given} has no time zone; for example, datetime(..., tzinfo=timezone.utc)")

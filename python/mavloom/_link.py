@@ -120,7 +120,7 @@ class Link(Sends):
                instance: int | str | None = None, max_age: float | None = None) -> Message | None:
         """Returns the newest message of this type; None if none arrived, or none in the last `max_age` seconds.
 
-        `recv` still returns the message.
+        `instance` selects one of several sensors that send the same message. `recv` still returns the message.
         """
         return self._port.latest(type, system, component, instance, max_age)
 
@@ -172,7 +172,8 @@ class Link(Sends):
         """Returns a Vehicle: arm, set_mode, takeoff, land, command, params, mission.
 
         Without `system`, this is the first vehicle that the link hears. Raises TimeoutError if it hears none within
-        `timeout` seconds. Without `component`, it is the one that was heard, or component 1 of `system`.
+        `timeout` seconds. Without `component`, the Vehicle has the component that was heard; if `system` is given, it
+        has component 1.
         """
         if component is not None:
             component = target_id("component", component)

@@ -169,7 +169,7 @@ class MAVWPLoader:
 
 
 def commented(w: Any, comment: str) -> Any:
-    """A copy of an item with a comment: its own one if `comment` is empty."""
+    """Returns a copy of an item with `comment`; if that is empty, with the comment of the item."""
     made = copy.copy(w)
     made.comment = comment or getattr(w, "comment", "")
     return made

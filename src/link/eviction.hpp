@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Chooses which silent peer makes room for a newcomer when max_peers is reached. Private to module link.
 //
-// A peer that was heard more than once, and within the last 2 s, stays. So a flood of unknown senders does not evict
-// peers that send heartbeats (1 Hz). If there are many peers, those of the older half may be silent for 10 s. A crowd
-// that arrives later then does not evict a program that loses some heartbeats.
+// A peer that has talked (see its has_talked) and was heard within the last 2 s stays. So a flood of unknown senders
+// does not evict peers that send heartbeats (1 Hz). If there are many peers, those of the older half may be silent for
+// 10 s. A crowd that arrives later then does not evict a program that loses some heartbeats.
 #pragma once
 
 #include <algorithm>

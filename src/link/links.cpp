@@ -65,7 +65,7 @@ static SetupResult<std::unique_ptr<OpenEndpoint>> open(Opening opening) {
         case endpoint::Scheme::shm: return open_shm(std::move(opening));
         case endpoint::Scheme::tlog: break;  // check_supported() has refused it
     }
-    return setup_error(SetupCode::usage, "a recording is no link");
+    return setup_error(SetupCode::usage, "a recording is not a link");
 }
 
 // Several endpoints may request port 0; each gets its own port.

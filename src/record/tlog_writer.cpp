@@ -56,9 +56,10 @@ SetupResult<void> check_is_recording(const fs::path& path) {
     const auto count = file->read(first);
     if (!count) return tl::unexpected(count.error());
     if (begins_recording(ByteView(first).first(*count))) return {};
-    return setup_error(SetupCode::in_use, fmt::format("{} exists and is no tlog recording, so it is left alone: choose "
-                                                      "another name, or move the file away",
-                                                      path.string()));
+    return setup_error(SetupCode::in_use,
+                       fmt::format("{} exists and is not a tlog recording, so it is left alone: choose "
+                                   "another name, or move the file away",
+                                   path.string()));
 }
 
 std::uint64_t time_on_file(WallTime time) noexcept {

@@ -387,15 +387,15 @@ def test_places_and_altitudes_that_are_none(peer):
     assert item.at(1, 2, nan, command="NAV_LAND").command == 21  # PX4 takes NaN for "as it is"
     message = mavloom.Dialect().message("MISSION_ITEM", x=nan, y=8.25)
     with flown(peer, px4=True) as (vehicle, stub):
-        for call, text in ((lambda: item.at(nan, 2, 3), "^lat: nan is no coordinate"),
-                           (lambda: item.at(1, math.inf, 3), "^lon: inf is no coordinate"),
+        for call, text in ((lambda: item.at(nan, 2, 3), "^lat: nan is not a coordinate"),
+                           (lambda: item.at(1, math.inf, 3), "^lon: inf is not a coordinate"),
                            (lambda: item.at(147.5, 8, 3), "^lat: 147.5 is out of range, -90 to 90 degrees"),
                            (lambda: item.at("a", 2, 3), "^lat: a number, not 'a'"),
                            (lambda: item.at(1, 2, None), "^alt: a number, not None"),
                            (lambda: item.at(1, 2, 3, command="DANCE"), "^unknown command 'DANCE'"),
-                           (lambda: vehicle.mission.upload([message]), "^x: nan is no coordinate"),
+                           (lambda: vehicle.mission.upload([message]), "^x: nan is not a coordinate"),
                            (lambda: vehicle.takeoff("x"), "^altitude: a number, not 'x'"),
-                           (lambda: vehicle.takeoff(nan), "^altitude: nan is no altitude"),
+                           (lambda: vehicle.takeoff(nan), "^altitude: nan is not an altitude"),
                            (lambda: vehicle.link.vehicle(True), "^system: True is out of range, 1 to 255"),
                            (lambda: vehicle.link.vehicle(1, "x"), "^component: 'x' is out of range, 1 to 255"),
                            (lambda: vehicle.link.packet_loss("x"), "^system: 'x' is out of range, 0 to 255")):

@@ -56,7 +56,7 @@ constexpr KeyOption key_options[] = {
     {"--speed", "sim", "speed", "of the flight clock, 0.1 to 100 (default: 1)", "X"},
     {"--for", "sim", "for", "end after this time: 10s, 2m", "TIME"},
     {"--report", "sim", "report", "at the end, print how well each stream kept its rate", nullptr},
-    {"--ring", "sim", "ring", "write all that the vehicles send into the ring /dev/shm/mavloom.NAME, too", "NAME"},
+    {"--ring", "sim", "ring", "also write all frames of the vehicles into the ring /dev/shm/mavloom.NAME", "NAME"},
     {"--name", "sim", "name", "name for `mavloom ctl` and `stat` (default: the name of the ring, or sim)", "NAME"},
     {"--metrics", "sim", "metrics", "serve Prometheus metrics at http://HOST:PORT/metrics", "HOST:PORT"},
 };

@@ -27,7 +27,7 @@ TRIES = 4
 MOST_TRIES = 256  # what the field `confirmation` can count
 IN_PROGRESS_S = 30.0  # how long a command in progress may report nothing
 HEARTBEATS_S = 5.0  # how long a change of mode or of arming may take to appear in heartbeats
-POSITION_S = 5.0  # how old the present place may be, and how long it may take to arrive
+POSITION_S = 5.0  # how old the current position may be, and how long it may take to arrive
 
 ACCEPTED, IN_PROGRESS = 0, 5  # MAV_RESULT
 ARM_DISARM, DO_SET_MODE, NAV_TAKEOFF, NAV_LAND, RETURN_TO_LAUNCH, REQUEST_MESSAGE = 400, 176, 22, 21, 20, 512  # MAV_CMD
@@ -69,8 +69,8 @@ def command(peer: Peer, number: int, params: tuple[float, ...], timeout: float |
             tries: int = TRIES) -> Protocol[Message]:
     """Sends a command until it is acknowledged. Returns the acknowledgement.
 
-    Raises CommandError if the vehicle refuses it, and TimeoutError if it does not answer. An acknowledgement has only
-    the command's number, so a second command of one number waits for the end of the first.
+    Raises CommandError if the vehicle refuses it, and TimeoutError if it does not answer. An acknowledgement
+    identifies its command only by number, so a second command with that number waits until the first has ended.
     """
     if len(params) > 7:
         raise UsageError(f"a command has at most 7 parameters, not {len(params)}")
@@ -97,10 +97,10 @@ def acknowledged(peer: Peer, number: int, params: tuple[float, ...], timeout: fl
 
 
 def acknowledgement(peer: Peer, number: int, timeout: float) -> Generator[float, Message | None, Message | None]:
-    """Waits for the final answer to a command; None if there is none, so the command may be repeated.
+    """Returns the final answer to a command, or None if there is no answer. The command may then be repeated.
 
-    A command in progress must not be repeated, because the vehicle would begin again: if it falls silent, raises
-    TimeoutError.
+    A command in progress must not be repeated, because the vehicle would begin it again. If the vehicle falls silent
+    during such a command, raises TimeoutError.
     """
     deadline, in_progress = time.monotonic() + timeout, False
     while (answer := (yield from wait_until(deadline))) is not None:
@@ -115,7 +115,7 @@ def acknowledgement(peer: Peer, number: int, timeout: float) -> Generator[float,
 
 
 def heartbeat_with(peer: Peer, what: str, is_so: Callable[[Message], object], seconds: float) -> Protocol[Message]:
-    """Waits for a heartbeat of which `is_so(heartbeat)` is true."""
+    """Waits for a heartbeat for which `is_so(heartbeat)` is true."""
     deadline = time.monotonic() + seconds
     while (answer := (yield from wait_until(deadline))) is not None:
         if answer.name == "HEARTBEAT" and is_so(answer):
@@ -170,9 +170,9 @@ def set_mode(peer: Peer, mode: str | int) -> Protocol[None]:
 
 
 def takeoff(peer: Peer, altitude: float) -> Protocol[None]:
-    """Requests a take-off to `altitude` m above the present place. An ArduPilot is put into mode GUIDED first."""
+    """Requests a take-off to `altitude` m above the current position. An ArduPilot is put into mode GUIDED first."""
     if not math.isfinite(checked_number("altitude", altitude)):
-        raise UsageError(f"altitude: {altitude} is no altitude")
+        raise UsageError(f"altitude: {altitude} is not an altitude")
     heartbeat = yield from known_heartbeat(peer)
     if heartbeat["autopilot"] == _modes.AUTOPILOT_PX4:
         here = yield from present_place(peer)
@@ -199,7 +199,7 @@ def present_place(peer: Peer) -> Protocol[Message]:
 
 
 def land(peer: Peer) -> Protocol[None]:
-    """Requests a landing at the present place."""
+    """Requests a landing at the current position."""
     heartbeat = yield from known_heartbeat(peer)
     unset = math.nan if heartbeat["autopilot"] == _modes.AUTOPILOT_PX4 else 0.0
     yield from command(peer, NAV_LAND, (0, 0, 0, unset, unset, unset, unset))

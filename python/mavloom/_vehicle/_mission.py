@@ -36,7 +36,7 @@ def scaled(name: str, value: float, scale: float) -> int:
     """A coordinate as the integer that is sent. Raises UsageError if the value is not a number."""
     number = checked_number(name, value)
     if not math.isfinite(number):
-        raise UsageError(f"{name}: {number} is no coordinate")
+        raise UsageError(f"{name}: {number} is not a coordinate")
     return round(number * scale)
 
 
@@ -132,7 +132,7 @@ def upload(peer: Peer, items: Iterable[MissionItem | Message | Mapping[str, Any]
 
 
 def transfer(peer: Peer, protocol: Protocol[T]) -> Protocol[T]:
-    """Runs a transfer after those before it: a vehicle has one at a time, of whichever kind of mission."""
+    """Runs a transfer after all earlier ones: a vehicle handles one at a time, even of different kinds of mission."""
     return exclusive(peer, "transfer of a mission", TRIES * ANSWER_S, protocol)
 
 
@@ -145,12 +145,12 @@ def begins_with_home(peer: Peer, kind: int) -> Protocol[bool]:
 
 
 def renumbered(items: list[MissionItem], by: int) -> list[MissionItem]:
-    """The items, with jumps to the numbers that their targets have when `by` items are put before them."""
+    """Returns the items with `by` added to the target of each jump, for a list in which `by` items come before them."""
     return [replace(item, param1=item.param1 + by) if is_jump(item) else item for item in items]
 
 
 def is_jump(item: MissionItem) -> bool:
-    """Whether an item is a DO_JUMP. Its command may be given by name, which the encoder takes too."""
+    """Whether an item is a DO_JUMP. Its command may be a number or a name."""
     return (number_of(item.command) if isinstance(item.command, str) else item.command) == DO_JUMP
 
 
@@ -197,7 +197,7 @@ def checked(peer: Peer, given: Iterable[MissionItem | Message | Mapping[str, Any
 def check_kind(peer: Peer, kind: int) -> None:
     """Raises UsageError for a kind that cannot be sent.
 
-    MAVLink 1 has no field for it: the vehicle would clear or replace its mission in place of the fence.
+    MAVLink 1 has no field for it: the vehicle would clear or replace its mission instead of the fence.
     """
     if not isinstance(kind, int) or not 0 <= kind <= 255:
         raise UsageError(f"mission_type: a MAV_MISSION_TYPE, 0 to 255, not {kind!r}")

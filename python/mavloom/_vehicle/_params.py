@@ -91,7 +91,7 @@ def is_name(name: object) -> TypeGuard[str]:
 
 def check_name(name: str) -> None:
     if not is_name(name):
-        raise UsageError(f"{name!r} is no name of a parameter: 1 to {LONGEST_NAME} ASCII characters")
+        raise UsageError(f"{name!r} is not the name of a parameter: 1 to {LONGEST_NAME} ASCII characters")
 
 
 def answer_about(name: str, deadline: float) -> Protocol[Message | None]:
@@ -122,7 +122,7 @@ def read(peer: Peer, name: str) -> Protocol[Value]:
 
 
 def write(peer: Peer, name: str, value: float, known: Value | None) -> Protocol[Value]:
-    """Sets a parameter, and waits until the vehicle confirms the value. `known` is its present value."""
+    """Sets a parameter, and waits until the vehicle confirms it. `known` is the current value; None if unknown."""
     check_name(name)
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise UsageError(f"parameter {name}: a value is a number, not {value!r}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Exclusive exchanges: transfers with one vehicle that would be mixed up if two ran at once take turns.
+"""Exclusive exchanges: transfers with one vehicle that would interfere if two ran at once. They take turns.
 
 The turns of a link are shared by all its Vehicle and AsyncVehicle objects, and by all threads and tasks.
 """
@@ -13,7 +13,7 @@ from collections.abc import Hashable
 from .._core import Message
 from ._exchange import Peer, Protocol, T
 
-LOOK_S = 0.01  # how often a waiting exchange looks whether it is its turn
+LOOK_S = 0.01  # how often a waiting exchange checks whether it is its turn
 
 
 class Turns:
@@ -70,7 +70,7 @@ def exclusive(peer: Peer, what: str, patience_s: float, protocol: Protocol[T]) -
 
 
 def turn_of(peer: Peer, turns: Turns, key: tuple[int, int, str], ticket: object, patience_s: float) -> Protocol[None]:
-    """Waits for the turn, then drops the answers to those before it."""
+    """Waits for the turn, then discards the answers to earlier exchanges."""
     begin = time.monotonic()
     waited = False
     while not turns.is_first(key, ticket):

@@ -81,9 +81,9 @@ class Vehicle(_Common):
     They resend lost requests. They raise CommandError, ParameterError or MissionError, with the vehicle's reason, if it
     refuses, and TimeoutError if it does not answer.
 
-    Any thread may call them. Calls that the protocol would mix up take turns, on one link: transfers of missions,
-    fetches of all parameters, and commands of one number or writes of one parameter. A waiting call raises TimeoutError
-    if the vehicle does not answer the call before it either.
+    Any thread may call them. On one link, calls whose answers cannot be distinguished take turns: transfers of
+    missions, fetches of all parameters, commands with the same number, and writes of the same parameter. A waiting call
+    raises TimeoutError if the vehicle does not answer the call in front of it.
     """
 
     def __init__(self, link: Link, system: int, component: int) -> None:
@@ -114,11 +114,11 @@ class Vehicle(_Common):
         run(self._peer, _commands.ANSWERS, _commands.set_mode(self._peer, mode))
 
     def takeoff(self, altitude: float) -> None:
-        """Takes off to `altitude` m above the present place. The motors must be armed."""
+        """Takes off to `altitude` m above the current position. The motors must be armed."""
         run(self._peer, _commands.TAKEOFF_ANSWERS, _commands.takeoff(self._peer, altitude))
 
     def land(self) -> None:
-        """Lands at the present place."""
+        """Lands at the current position."""
         run(self._peer, _commands.ANSWERS, _commands.land(self._peer))
 
     def return_to_launch(self) -> None:
@@ -168,12 +168,12 @@ class Params(MutableMapping[str, "int | float"]):
         return self._known[name].type
 
     def __delitem__(self, name: str) -> None:
-        """Forgets the value that is known, so that the next look requests it again."""
+        """Forgets the cached value, so that the next access requests it again."""
         del self._known[name]
         self._is_complete = False
 
     def clear(self) -> None:
-        """Forgets all values that are known."""
+        """Forgets all cached values."""
         self._known = {}
         self._is_complete = False
 

@@ -67,14 +67,14 @@ UDP_MAX_PACKET_LEN = 65535
 
 
 def mavlink10() -> bool:
-    """True: MAVLink 0.9 is not supported, as in pymavlink."""
+    """Always True, as in pymavlink: MAVLink 0.9 is not supported."""
     return True
 
 
 def mavlink20() -> bool:
-    """Whether MAVLINK20 is in the environment: MAVLink 2 is sent from the start.
+    """Whether MAVLINK20 is in the environment, so that connections send MAVLink 2 from the start.
 
-    As in pymavlink, the first vehicle that sends MAVLink 2 sets it.
+    As in pymavlink, the first message of MAVLink 2 that arrives sets it.
     """
     return "MAVLINK20" in os.environ
 
@@ -127,7 +127,7 @@ def mavlink_connection(device: str | os.PathLike[str], baud: int = 115200, sourc
 
     `udpin:` and `udpbcast:` forget a program that was silent for `udp_timeout` seconds; 0: never.
 
-    These have no meaning here and are accepted: use_native, zero_time_base, robust_parsing without notimestamps.
+    These are accepted and have no effect: use_native, zero_time_base, and robust_parsing without notimestamps.
     """
     global mavfile_global
     source_system, source_component = _check(source_system, source_component, opts)

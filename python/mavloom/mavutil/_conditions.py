@@ -95,7 +95,7 @@ def compiled(expression: str) -> Evaluator:
         tree = ast.parse(expression.strip(), mode="eval")
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
         column = getattr(error, "offset", None) or len(expression) + 1  # 0 is the end
-        raise UsageError(f"condition {shown(expression)}: no expression: {getattr(error, 'msg', error)} "
+        raise UsageError(f"condition {shown(expression)}: not an expression: {getattr(error, 'msg', error)} "
                          f"(at character {column})") from None
     try:
         return Builder(expression).make(tree.body)
@@ -234,7 +234,8 @@ def evaluate_expression(expression: str, vars: Names, nocondition: bool = False)
 
     With a condition in braces, `ATTITUDE.roll{MAV.armed}`, the value is None while that is false. The value is also
     None if the expression names a message that is not in `vars`, or an instance that has not arrived, or divides by
-    zero. Raises UsageError, with the place, for text that is no expression or does what a condition must not do.
+    zero. Raises UsageError, which states the place, for text that is not an expression or does what a condition must
+    not do.
     """
     if not isinstance(expression, str):
         raise UsageError(f"a condition is text, such as 'ATTITUDE.roll > 0.1', not {expression!r:.60}; the recv_match "

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Connection: reading, and the state that is read, of live connections and recordings."""
+"""Connection: reads messages from live connections and recordings, and keeps the state that they report."""
 from __future__ import annotations
 
 import operator
@@ -56,9 +56,10 @@ class Connection:
         self.param_fetch_start: float = 0
         self.target_component = 0
         self._param_system = 0
-        self._count_offset = 0  # of what was set to the present counters
+        # The script may set mav_count and mav_loss. These are added to the counters.
+        self._count_offset = 0
         self._loss_offset = 0
-        self._set_time: tuple[int, float] | None = None  # time_ns of the last message then, and what was set
+        self._set_time: tuple[int, float] | None = None  # time_ns of the last message then, and the time that was set
         self.param_state: dict[tuple[int, int], param_state] = {(0, 0): param_state()}
         self.message_hooks: list[Callable[[Any, MAVLink_message], object]] = []
         self.idle_hooks: list[Callable[[Any], object]] = []
@@ -123,7 +124,7 @@ class Connection:
         raise UsageError(f"{self.address}: nothing can be sent here")
 
     def pre_message(self) -> None:
-        """Is called before a message is read with `recv`."""
+        """Called before a message is read with `recv`."""
 
     def select(self, timeout: float) -> bool:
         """Waits until there may be a message, for at most `timeout` seconds. Returns whether there may be one."""
@@ -162,7 +163,7 @@ class Connection:
         """
         types = self._types_of(type)
         if types is not None and blocking and timeout is None and not types.has_any and not self._has_ended():
-            raise UsageError(f"type={type!r}: no such message, so this call would wait for ever")
+            raise UsageError(f"type={type!r}: no such message, so this call would wait forever")
         wait = None if timeout is None else wait_of(timeout)
         blocking = blocking and wait != 0
         end = time.monotonic() + wait if blocking and wait is not None else None
@@ -278,7 +279,7 @@ class Connection:
     @target_system.setter
     def target_system(self, value: int) -> None:
         if not hasattr(value, "__index__") or not 0 <= value <= 255:
-            raise UsageError(f"target_system: {value!r} is no system, 0 to 255")
+            raise UsageError(f"target_system: {value!r} is not a system id, 0 to 255")
         self._state.target = self._param_system = operator.index(value)
 
     sysid = target_system
@@ -424,9 +425,9 @@ class Connection:
                       initial_timestamp: int | None = None, link_id: int | None = None) -> None:
         """Signs what is sent, and replaces messages without a good signature by BAD_DATA.
 
-        `secret_key` has 32 bytes. Signatures that are a minute older than `initial_timestamp` are refused; it counts
-        10 µs since 2015, and is the present time by default. `allow_unsigned_callback(mav, message_id)` returns whether
-        a message without a good signature is accepted.
+        `secret_key` has 32 bytes. `initial_timestamp` counts 10 µs since 2015-01-01 UTC; the default is the current
+        time. Signatures that are more than a minute older are refused. `allow_unsigned_callback(mav, message_id)`
+        returns whether a message without a good signature is accepted.
         """
         key = as_bytes(secret_key)
         if len(key) != 32:
@@ -461,7 +462,7 @@ class Connection:
 def wait_of(timeout: float) -> float:
     """A time-out in seconds that a system call accepts. Raises UsageError for NaN."""
     if timeout != timeout:
-        raise UsageError("timeout: nan is no number of seconds")
+        raise UsageError("timeout: nan is not a number of seconds")
     return min(max(0.0, timeout), LONGEST_WAIT_S)
 
 
@@ -471,5 +472,5 @@ def open_to_write(path: str | os.PathLike[str], mode: str) -> BinaryIO:
     try:
         file: Any = open(os.fspath(path), mode if "b" in mode else mode + "b", buffering=0)
     except UnicodeEncodeError:
-        raise UsageError(f"{path!r:.60} is no name of a file: it has a lone surrogate") from None
+        raise UsageError(f"{path!r:.60} is not the name of a file: it has a lone surrogate") from None
     return file  # type: ignore[no-any-return]

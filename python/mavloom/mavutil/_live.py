@@ -28,14 +28,14 @@ ROOM_PAUSE_S = 0.005
 
 
 class mavlive(mavfile):
-    """A connection of a mavloom.Link, which is its attribute `link`."""
+    """A connection over a mavloom.Link, which is its attribute `link`."""
 
     def __init__(self, url: str, address: str, source_system: int = 255, source_component: int = 0) -> None:
         super().__init__(None, address, source_system, source_component)
         self.url = url
         self._packets = self._bytes = 0
         self._closed = False
-        self._watched = False  # whether somebody waits on the descriptor
+        self._watched = False  # whether the program waits on the descriptor
         self._held: deque[MAVLink_message] = deque()  # read when the descriptor was armed
         self.link = self._open(url)
         self._reader: Any = self.link._reader
@@ -207,7 +207,7 @@ def idle_of(timeout: float) -> str:
 
 
 class mavmcast(mavlive):
-    """A multicast group; by default, and with a port alone, that of pymavlink."""
+    """A multicast group. If `device` is empty or only a port, it is the group of pymavlink."""
 
     def __init__(self, device: str = "", source_system: int = 255, source_component: int = 0,
                  use_native: bool = False) -> None:
@@ -226,7 +226,7 @@ def refusal(error: SystemFailure) -> OSError:
 def seconds(value: float, name: str) -> float:
     """A pause in seconds. Raises UsageError if the value is not a number."""
     if not isinstance(value, (int, float)) or not 0 <= value <= LONGEST_WAIT_S:
-        raise UsageError(f"{name}: {value!r} is no number of seconds, 0 to {LONGEST_WAIT_S}")
+        raise UsageError(f"{name}: {value!r} is not a number of seconds, 0 to {LONGEST_WAIT_S}")
     return value
 
 
@@ -265,7 +265,7 @@ class mavtcpin(mavlive):
 
 
 class mavserial(mavlive):
-    """A serial device. It is opened again when it was unplugged. Sending waits for a slow line, as in pymavlink."""
+    """A serial device. It is opened again after it was unplugged. Sending waits for a slow line, as in pymavlink."""
 
     def __init__(self, device: str, baud: int = 115200, autoreconnect: bool = False, source_system: int = 255,
                  source_component: int = 0, use_native: bool = False, force_connected: bool = False) -> None:

@@ -163,7 +163,7 @@ class mavlogfile(mavfile):
 
 
 class mavmmaplog(mavlogfile):
-    """A recording whose types of messages are known when it is open: `name_to_id`, `flightmode_list()`."""
+    """A recording whose types of messages are known once it is open: `name_to_id`, `flightmode_list()`."""
 
     def __init__(self, filename: str | os.PathLike[str], progress_callback: Callable[[int], object] | None = None,
                  source_system: int = 255, source_component: int = 0) -> None:
@@ -180,7 +180,7 @@ class mavmmaplog(mavlogfile):
         self.id_to_name = {number: name for name, number in self.name_to_id.items()}
 
     def _forget_indexed_instances(self) -> None:
-        """Conditions see an instance, except for the first one of a message, only after it was read."""
+        """Forgets all but the first instance of each message. Conditions see the others only after they were read."""
         for message in self.messages.values():
             instances = getattr(message, "_instances", None) or {}
             for instance in list(instances)[1:]:

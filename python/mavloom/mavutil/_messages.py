@@ -20,7 +20,7 @@ FORMATS = {"char": "c", "uint8_t": "B", "int8_t": "b", "uint16_t": "H", "int16_t
 
 
 class MAVError(Error):
-    """Bytes that are no valid frame."""
+    """The bytes are not a valid frame."""
 
     def __init__(self, msg: str) -> None:
         super().__init__(msg)
@@ -186,7 +186,7 @@ class MAVLink_message(MavutilMessage):
 
 
 class MAVLink_bad_data(MAVLink_message):
-    """Bytes that are no message, with the reason."""
+    """Bytes that are not a message, with the reason."""
 
     __slots__ = ()
     data: bytes | bytearray

@@ -33,8 +33,8 @@ def signing_time() -> int:
 class MAVLinkSigning:
     """The state of signing. A bad signature changes only the counters.
 
-    `sig_count` has the messages with a signature, good or not. A connection counts them only while it has a key.
-    `unsigned_count` has those without a good signature that the callback accepted.
+    `sig_count` counts the messages with a signature, good or not; a connection counts them only while it has a key.
+    `unsigned_count` counts those without a good signature that the callback accepted.
     """
 
     def __init__(self) -> None:
@@ -129,7 +129,7 @@ class MAVLink:
 
     @property
     def total_receive_errors(self) -> int:
-        """Frames with a wrong checksum, and bytes that are no frame. A live connection counts only frames."""
+        """Frames with a wrong checksum, and bytes that are not in a frame. A live connection counts only frames."""
         return self._errors + self._errors_of_link()
 
     @total_receive_errors.setter
@@ -138,7 +138,7 @@ class MAVLink:
 
     @property
     def total_packets_received(self) -> int:
-        """Messages that were read, with BAD_DATA."""
+        """Messages that were read, including BAD_DATA."""
         return self._packets + self._totals_of_connection()[0]
 
     @total_packets_received.setter
@@ -206,7 +206,7 @@ class MAVLink:
     def parse_char(self, c: Sequence[int] | bytes) -> MAVLink_message | None:
         """Takes any number of bytes. Returns the next message; None if there is none yet.
 
-        Bytes that are no message raise MAVError, or become BAD_DATA if `robust_parsing` is set.
+        Bytes that are not a message raise MAVError, or become BAD_DATA if `robust_parsing` is set.
         """
         message = self._parse(c)
         if message is None:
@@ -294,7 +294,7 @@ def check_form(frame: bytes) -> None:
         raise MAVError(f"invalid MAVLink prefix '{frame[0]:#x}'" if frame else "no bytes to decode")
     head = 10 if frame[0] == PROTOCOL_MARKER_V2 else 6
     if len(frame) < head + 2:
-        raise MAVError(f"invalid MAVLink message length: {len(frame)} bytes are no frame")
+        raise MAVError(f"invalid MAVLink message length: {len(frame)} bytes are not a frame")
     signed = head == 10 and frame[2] & MAVLINK_IFLAG_SIGNED
     got = len(frame) - head - 2 - (MAVLINK_SIGNATURE_BLOCK_LEN if signed else 0)
     if got != frame[1]:

@@ -21,7 +21,7 @@ PARAM_LIST_PAUSE_S = 2.0  # the least time between two requests for all paramete
 
 
 def encoded(name: str | bytes) -> bytes:
-    """The bytes of a parameter's name. Raises UsageError for what is no text."""
+    """The bytes of a parameter's name. Raises UsageError for anything that is not text."""
     if isinstance(name, (bytes, bytearray)):
         return bytes(name)
     if not isinstance(name, str):
@@ -119,7 +119,7 @@ class mavfile(Connection):
         self._command(NAV_RETURN_TO_LAUNCH)
 
     def set_mode_loiter(self) -> None:
-        """Requests circling or hovering at the present position, without a time limit."""
+        """Requests circling or hovering at the current position, without a time limit."""
         self._command(NAV_LOITER_UNLIM)
 
     def set_mode_manual(self) -> None:
@@ -149,18 +149,18 @@ class mavfile(Connection):
         self._command(PREFLIGHT_CALIBRATION, 0, 0, 1)
 
     def reboot_autopilot(self, hold_in_bootloader: bool = False, force: bool = False) -> None:
-        """Restarts the autopilot; `force`: an ArduPilot also in flight."""
+        """Restarts the autopilot. With `force`, an ArduPilot restarts even in flight."""
         self._command(PREFLIGHT_REBOOT_SHUTDOWN, 3 if hold_in_bootloader else 1, 0, 0, 0, 0,
                       FORCE_REBOOT if force else 0)
 
     # ---- arming
 
     def arducopter_arm(self) -> None:
-        """Requests that the motors are armed, of any autopilot."""
+        """Requests that the motors be armed. Works with any autopilot."""
         self._command(COMPONENT_ARM_DISARM, 1)
 
     def arducopter_disarm(self) -> None:
-        """Requests that the motors are disarmed, of any autopilot."""
+        """Requests that the motors be disarmed. Works with any autopilot."""
         self._command(COMPONENT_ARM_DISARM, 0)
 
     def motors_armed(self) -> int | bool:

@@ -157,7 +157,7 @@ void bind_link_stats(nb::module_& module) {
         .def_prop_ro("not_sent", of_links<&L::frames_not_sent>(), "Outgoing frames that the kernel rejected.")
         .def_prop_ro("refused", of_links<&L::refused>(), "Frames sent to a port on which no program listens.")
         .def_prop_ro("unconfirmed", of_links<&L::unconfirmed>(),
-                     "Frames not sent to a UDP peer that was heard once only: its address may be forged.")
+                     "Frames not sent to a UDP peer that was heard only once: its address may be forged.")
         .def_prop_ro("send_errors", of_endpoint<&E::send_errors>(),
                      "Datagrams that the kernel rejected, or that met a closed port.")
         .def_prop_ro("reconnects", of_endpoint<&E::reconnects>())

@@ -97,7 +97,7 @@ void bind_mavutil_parser(nb::module_& module) {
         .def(nb::init<const nb::object&>(), nb::arg("dialect"), nb::sig("def __init__(self, dialect: Dialect) -> None"))
         .def("feed", &MavutilParser::feed, nb::arg("data"), nb::arg("time_ns"),
              nb::sig("def feed(self, data: Buffer, time_ns: int) -> list[typing.Any]"),
-             "Returns the messages that end in this chunk, and (bytes, reason) for bytes that are no message.")
+             "Returns the messages that end in this chunk, and (bytes, reason) for bytes that are not a message.")
         .def_prop_ro("pending", &MavutilParser::pending)
         .def_prop_ro("needed", &MavutilParser::needed);
 }

@@ -205,7 +205,7 @@ PyRingWriter::Committed PyRingWriter::commit_locked(Claimed& claimed, const shm:
 void PyRingWriter::raise_looked_at() {
     raise_buffer("a view of the claim is still alive (a slice, or an array made of it): release or delete it first");
 }
-void PyRingWriter::raise_over() { raise_closed("the claim is over: it was committed or given up"); }
+void PyRingWriter::raise_over() { raise_closed("the claim is over: it was committed or abandoned"); }
 
 void PyRingWriter::give_up(Claimed& claimed) noexcept {
     claimed.given_up.store(true);

@@ -388,7 +388,7 @@ def test_a_timeout_of_zero_looks_at_all_messages_that_wait(peer):
 
 def test_a_name_typed_wrong_does_not_wait_for_ever():
     connection = mavutil.mavlink_connection("udpin:127.0.0.1:0")
-    with pytest.raises(mavloom.UsageError, match="type='ATITUDE': no such message, so this call would wait for ever"):
+    with pytest.raises(mavloom.UsageError, match="type='ATITUDE': no such message, so this call would wait forever"):
         connection.recv_match(type="ATITUDE", blocking=True)
     assert connection.recv_match(type="ATITUDE", blocking=True, timeout=0.01) is None
     assert connection.recv_match(type="ATITUDE") is None
@@ -614,7 +614,7 @@ def test_links_of_ours_and_several_vehicles(peer):
     assert connection.target_system == 1 and "ATTITUDE" not in connection.messages
     connection.target_system = 2
     assert connection.messages["ATTITUDE"].roll == 0.5 and connection.mav_type == 1
-    with pytest.raises(mavloom.UsageError, match="target_system: 256 is no system"):
+    with pytest.raises(mavloom.UsageError, match="target_system: 256 is not a system id"):
         connection.target_system = 256
     connection.close()
 

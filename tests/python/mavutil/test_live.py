@@ -55,7 +55,7 @@ def test_a_server_that_comes_later_is_reached(module, monkeypatch):
 
 @pytest.mark.parametrize("pause", [-1, float("nan"), float("inf"), "1"])
 def test_pauses_that_are_none(pause):
-    with pytest.raises(mavloom.UsageError, match="reconnect_delay: .* is no number of seconds"):
+    with pytest.raises(mavloom.UsageError, match="reconnect_delay: .* is not a number of seconds"):
         mavutil.mavlink_connection(f"tcp:127.0.0.1:{free_port(socket.SOCK_STREAM)}", reconnect_delay=pause)
 
 

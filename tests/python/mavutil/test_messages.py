@@ -400,7 +400,7 @@ def test_errors_and_bad_data(mavlink, peer):
     assert mav.parse_char(frame[5:]).get_type() == "HEARTBEAT" and mav.parse_buffer(b"") is None
     for data, text in ((frame[:-1], "Got 8 expected 9, msgId=0 headerlen=10"), (wrong, "invalid MAVLink CRC"),
                        (b"", "no bytes"), (b"x" * 20, "invalid MAVLink prefix '0x78'"),
-                       (frame + b"x", "Got 10 expected 9"), (b"\xfd", "1 bytes are no frame")):
+                       (frame + b"x", "Got 10 expected 9"), (b"\xfd", "1 bytes are not a frame")):
         with pytest.raises(mavlink.MAVError, match=text):
             mavlink.MAVLink(None).decode(data)
     assert issubclass(mavlink.MAVError, mavloom.Error) and mavutil.MAVError is mavlink.MAVError

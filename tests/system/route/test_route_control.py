@@ -202,7 +202,7 @@ def test_ctl_add_moves_no_file_away_that_is_no_recording(net, ctl, tmp_path):
     hosts.write_text("127.0.0.1 localhost\n")
     refused = ctl(sut.router, "add", f"tlog://{hosts}")
 
-    assert refused.status == 1 and f"{hosts} exists and is no tlog recording" in refused.stderr
+    assert refused.status == 1 and f"{hosts} exists and is not a tlog recording" in refused.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["hosts"]
     assert hosts.read_text() == "127.0.0.1 localhost\n"
 

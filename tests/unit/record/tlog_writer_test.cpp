@@ -118,7 +118,7 @@ TEST(TlogWriter, LeavesAFileAloneThatIsNoRecording) {
         ASSERT_FALSE(refused.has_value());
         EXPECT_EQ(refused.error().code, SetupCode::in_use);
         EXPECT_EQ(refused.error().text, (dir / "x").string() +
-                                            " exists and is no tlog recording, so it is left alone: "
+                                            " exists and is not a tlog recording, so it is left alone: "
                                             "choose another name, or move the file away");
         EXPECT_EQ(content_of(dir / "x"), other);
     }
