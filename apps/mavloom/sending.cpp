@@ -11,7 +11,7 @@ namespace mavloom::app {
 
 namespace {
 
-void say_renamed(const Common& common, const record::RotatingWriter& file) {
+void log_renamed(const Common& common, const record::RotatingWriter& file) {
     if (const auto old = file.renamed_to(); !old.empty())
         print_notice(common, fmt::format("{} exists and is now {}", file.path().string(), old.string()));
 }
@@ -37,7 +37,7 @@ SetupResult<record::RotatingWriter> create_recording(const Common& common, const
                                                      std::string_view option) {
     auto file = feed::create_recording(endpoint);
     if (!file) return tl::unexpected(std::move(file.error()).within(option));
-    say_renamed(common, *file);
+    log_renamed(common, *file);
     return file;
 }
 
@@ -49,7 +49,7 @@ SetupResult<feed::Destinations> open_destinations(const Common& common, const st
         if (!endpoint) return tl::unexpected(std::move(endpoint.error()).within("--to"));
         endpoints.push_back(std::move(*endpoint));
     }
-    auto all = feed::Destinations::open(endpoints, links, [&](const auto& file) { say_renamed(common, file); });
+    auto all = feed::Destinations::open(endpoints, links, [&](const auto& file) { log_renamed(common, file); });
     if (!all) return tl::unexpected(std::move(all.error()).within("--to"));
     for (const auto& info : links.endpoints())
         if (all->has(info.id) && info.local_port != 0 && info.endpoint.address.port == 0)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reserves the places of vehicles whose links went away. A vehicle that reconnects gets a new link. Until it is back,
-// or has been silent for long enough, the engine does not learn it on a link that leads to another place.
+// or has been silent for long enough, the engine does not learn it on a link that leads to another place;
+// Engine::Impl::may_return has the exceptions.
 //
 // Private to module route; one owner thread; never allocates.
 #pragma once

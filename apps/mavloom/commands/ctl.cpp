@@ -298,7 +298,7 @@ Run declare_ctl(Arguments command, const Common&) {
         .type_name("ACTION");
     command.add_option("argument", options->arguments, "what the action takes").type_name("ARGUMENT").expected(0, 2);
     command.add_option("--system", options->system, "the vehicle with this system id (default: all)").type_name("N");
-    command.add_flag("--force", options->force, "arm or disarm whatever the vehicle's checks say");
+    command.add_flag("--force", options->force, "arm or disarm even if the vehicle's own checks fail");
     command.footer(
         "Answers are JSON, one object per line (docs/guide/route.md, docs/guide/sim.md). If a vehicle refuses, the "
         "exit\n"
@@ -318,8 +318,8 @@ Run declare_stat(Arguments command, const Common&) {
         .type_name("NAME");
     command.add_flag("--json", options->json, "print one JSON object per line");
     command.footer(
-        "Reads the counter page of a router's --ring or of a simulator, without involving its process. Asks a router\n"
-        "without a ring, like `ctl NAME stats`.\n\n"
+        "Reads the counter page of a router's --ring or of a simulator, without involving its process. If a\n"
+        "router has no ring, asks the router itself, like `ctl NAME stats`.\n\n"
         "Examples: mavloom stat router\n"
         "          mavloom stat px4 --json\n"
         "          mavloom stat sim");

@@ -80,7 +80,7 @@ private:
 };
 
 // Prints the relay's results: as log lines, and as one JSON object.
-void say_report(const Common& common, const feed::Destinations& destinations, const edit::Counters& c,
+void log_report(const Common& common, const feed::Destinations& destinations, const edit::Counters& c,
                 const feed::RelayOutcome& outcome) {
     log_sums(common, destinations);
     print_notice(
@@ -240,7 +240,7 @@ Exit relay(const Common& common, RelayOptions& options) {
     feed::Relay relaying(*sources, *destinations, **stage, events, options.edit.sign_key ? Signing::on : Signing::off);
     const auto outcome = relaying.run(end);
     const auto& counters = (*stage)->counters();
-    say_report(common, *destinations, counters, outcome);
+    log_report(common, *destinations, counters, outcome);
     const auto printed = options.json ? print_at_end(summary(*destinations, counters, outcome), Exit::done) : Exit::done;
     return status_of(outcome, printed);
 }

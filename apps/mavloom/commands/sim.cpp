@@ -39,21 +39,23 @@ struct KeyOption {
 };
 
 constexpr KeyOption key_options[] = {
-    {"--vehicle", "vehicle", "kind", "what flies or drives: quad (default), plane, rover", "KIND"},
-    {"--vehicles", "vehicle", "count", "this many vehicles, 5 m apart; their system ids count up", "N"},
+    {"--vehicle", "vehicle", "kind", "kind of the vehicles: quad (default), plane or rover", "KIND"},
+    {"--vehicles", "vehicle", "count", "number of vehicles, 5 m apart, with consecutive system ids", "N"},
     {"--system", "vehicle", "system", "system id of the first vehicle (default: 1)", "N"},
     {"--autopilot", "vehicle", "autopilot", "firmware to imitate: px4 (default) or ardupilot", "NAME"},
-    {"--home", "vehicle", "home", "where it stands: degrees, degrees, metres above sea level, degrees from north",
+    {"--home", "vehicle", "home",
+     "start position: latitude and longitude in degrees, metres above sea level, heading in degrees from north",
      "LAT,LON,ALT,HEADING"},
     {"--wind", "vehicle", "wind",
-     "metres a second, and the degrees from north that the wind comes from; with GUST, also gusts", "SPEED,DIR[,GUST]"},
-    {"--gimbal", "vehicle", "gimbal", "a gimbal is mounted", nullptr},
-    {"--traffic", "vehicle", "traffic", "this many other aircraft, reported by ADSB_VEHICLE", "N"},
+     "speed (m/s), direction that the wind comes from (degrees from north), and optionally gusts (m/s)",
+     "SPEED,DIR[,GUST]"},
+    {"--gimbal", "vehicle", "gimbal", "mount a gimbal", nullptr},
+    {"--traffic", "vehicle", "traffic", "number of other aircraft, reported by ADSB_VEHICLE", "N"},
     {"--motion", "vehicle", "motion", "flight (default), or random: coherent random values instead of flight", "HOW"},
     {"--profile", "sim", "profile",
-     "which messages it streams, and how often: lite, default, px4-normal, px4-onboard, ardupilot, original", "NAME"},
-    {"--seed", "sim", "seed", "start of the random numbers; the same seed gives the same flight (default: 1)", "N"},
-    {"--speed", "sim", "speed", "of the flight clock, 0.1 to 100 (default: 1)", "X"},
+     "which messages to stream, and how often: lite, default, px4-normal, px4-onboard, ardupilot, original", "NAME"},
+    {"--seed", "sim", "seed", "seed of the random numbers; the same seed gives the same flight (default: 1)", "N"},
+    {"--speed", "sim", "speed", "speed of the flight clock, 0.1 to 100 (default: 1)", "X"},
     {"--for", "sim", "for", "end after this time: 10s, 2m", "TIME"},
     {"--report", "sim", "report", "at the end, print how well each stream kept its rate", nullptr},
     {"--ring", "sim", "ring", "also write all frames of the vehicles into the ring /dev/shm/mavloom.NAME", "NAME"},
@@ -157,7 +159,7 @@ SetupResult<std::unique_ptr<control::Control>> open_control(const Common& common
     return without;
 }
 
-void say_what_flies(const Common& common, const Scenario& scenario, Simulator& simulator) {
+void log_vehicles(const Common& common, const Scenario& scenario, Simulator& simulator) {
     for (const auto& group : scenario.vehicles) {
         const auto& o = group.options;
         const unsigned first = o.system.value, last = first + static_cast<unsigned>(group.count) - 1;
@@ -227,7 +229,7 @@ Exit simulate(const Common& common, const SimOptions& options) {
     if (!control) return fail(control.error());
     if (const auto port = (*control)->metrics_port(); port != 0 && scenario->metrics->port == 0)
         print_notice(common, fmt::format("metrics at port {}", port));
-    say_what_flies(common, *scenario, **simulator);
+    log_vehicles(common, *scenario, **simulator);
     fly(*scenario, **simulator);
     (*simulator)->finish(sim_send_limit);
     return Signals::status(print_report(options, *scenario, **simulator, Exit::done));
@@ -261,7 +263,7 @@ Run declare_sim(Arguments command, const Common& common) {
     command.add_flag("--json", options->json, "with --report: print one JSON object per line");
     command.footer(
         "Simulates vehicles that ground stations and SDKs take for real. Without options, one PX4 quadrotor sends to "
-        "port 14550\nof this machine, where a ground station finds it. It answers every sender.\n\n"
+        "port 14550\nof this machine, where a ground station finds it. The vehicle answers every sender.\n\n"
         "Examples:\n"
         "  mavloom sim\n"
         "  mavloom sim --vehicle plane --autopilot ardupilot --listen tcpin://127.0.0.1:5760\n"

@@ -114,8 +114,8 @@ void bind_link_stats(nb::module_& module) {
         .def_prop_ro("lost", of_links<&L::lost>(),
                      "Frames lost before they arrived, by sequence numbers. Late and duplicate frames do not count as\n"
                      "lost.")
-        .def_prop_ro("late", of_links<&L::late>())
-        .def_prop_ro("duplicate", of_links<&L::duplicate>())
+        .def_prop_ro("late", of_links<&L::late>(), "Frames that arrived out of order; not counted in `lost`.")
+        .def_prop_ro("duplicate", of_links<&L::duplicate>(), "Frames that arrived again.")
         .def_prop_ro("resync", of_links<&L::resync>(), "Sequence jumps that are too large to be loss, such as a reboot.")
         .def_prop_ro("kernel_drop", of_endpoint<&E::kernel_drop>(),
                      "Datagrams that the kernel dropped because the receive buffer was full.")
@@ -133,23 +133,28 @@ void bind_link_stats(nb::module_& module) {
                      "Records of a ring that this link itself sent to the inlet; they are not returned as messages.")
         .def_ro("hints", &LinkStats::hints,
                 "Advice on what to check, as text, for example a message whose checksum is always wrong.")
-        .def_prop_ro("junk_bytes", of_links<&L::junk_bytes>())
-        .def_prop_ro("unknown_ids", of_links<&L::unknown_ids>())
-        .def_prop_ro("unknown_flags", of_links<&L::unknown_flags>())
+        .def_prop_ro("junk_bytes", of_links<&L::junk_bytes>(), "Bytes that belong to no frame.")
+        .def_prop_ro("unknown_ids", of_links<&L::unknown_ids>(),
+                     "Valid frames whose id has no definition; `frames_in` includes them.")
+        .def_prop_ro("unknown_flags", of_links<&L::unknown_flags>(),
+                     "Frames that were left out because of an undefined incompatibility flag.")
         .def_prop_ro("implausible_unknown", of_links<&L::implausible_unknown>(),
-                     "What looked like a frame without definition, and was not accepted as one.")
-        .def_prop_ro("bad_signature", of_links<&L::bad_signature>())
-        .def_prop_ro("wrong_peer", of_endpoint<&E::wrong_peer>())
+                     "Apparent frames without a definition that were rejected as implausible.")
+        .def_prop_ro("bad_signature", of_links<&L::bad_signature>(),
+                     "With `verify=`: frames that are unsigned or whose signature is invalid.")
+        .def_prop_ro("wrong_peer", of_endpoint<&E::wrong_peer>(),
+                     "With `udpout`: datagrams from an address other than the destination.")
         .def_prop_ro(
             "bad_source", of_endpoint<&E::bad_source>(),
             "Datagrams whose source can be no peer: port 0, a broadcast or multicast address, or the link's own.")
-        .def_prop_ro("stray_bytes", of_endpoint<&E::stray_bytes>())
+        .def_prop_ro("stray_bytes", of_endpoint<&E::stray_bytes>(),
+                     "Bytes of datagrams that came from unknown senders and held no valid frame.")
         .def_prop_ro("peers_refused", of_endpoint<&E::peers_refused>(), "New peers that were turned away.")
         .def_prop_ro("peers_limited", of_endpoint<&E::peers_limited>(),
                      "New peers that were turned away although they sent repeatedly, because too many did.")
         .def_prop_ro("peers_evicted", of_endpoint<&E::peers_evicted>(), "Idle peers that were evicted for new ones.")
         .def_prop_ro("peers_displaced", of_endpoint<&E::peers_displaced>(),
-                     "Peers that talked, and were evicted for new ones.")
+                     "Active peers that were evicted for new ones.")
         .def_prop_ro("queue_bytes", of_links<&L::queue_bytes>(),
                      "Outgoing frames that were dropped because the queue was full.")
         .def_prop_ro("queue_age", of_links<&L::queue_age>(),

@@ -209,7 +209,10 @@ void bind_subscription(nb::module_& module) {
              "Each record is a whole frame of kind 1 with its receive time and link. `verdict` is 0 for\n"
              "unsigned, 16 for signed but not checked, 32 for signed and verified (docs/formats/ring.md).\n"
              "If a full ring has no room for a frame, the frame stays with this reader for its next call.")
-        .def("event_fd", &Subscription::event_fd)
+        .def("event_fd", &Subscription::event_fd,
+             "For other event loops: a descriptor. After `recv(0)` has returned None, the descriptor becomes\n"
+             "readable when another call may return a message. Before that call, read the 8 bytes from it.\n"
+             "The subscription closes it.")
         .def("__repr__", &Subscription::shown)
         .def_prop_ro("missed", &Subscription::missed, "Frames that were overwritten before this reader read them.")
         .def("close", &Subscription::close,

@@ -337,8 +337,8 @@ void bind_dialect(nb::module_& module) {
              "  encode(decode(frame)) == frame for unsigned frames.\n\n"
              "Values are numbers or names of enum entries (\"A|B\" for flags), str (encoded as UTF-8) or bytes\n"
              "for char[], and sequences of the right length for arrays. A float may also be given as its bytes,\n"
-             "little-endian. A value that does not fit raises\n"
-             "UsageError (a ValueError) that names message, field and range.")
+             "little-endian. A value that does not fit raises UsageError (a ValueError) that names message, field\n"
+             "and range.")
         .def("message", &make, nb::arg(), nb::arg("fields"),
              nb::sig("def message(self, name: str | Message, /, **fields: typing.Any) -> Message"),
              "Returns a Message with header 255/193 and time 0. Fields are given as for `encode`.")

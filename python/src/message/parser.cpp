@@ -66,8 +66,8 @@ void bind_parser(nb::module_& module) {
     using wire::ParseCounters;
     nb::class_<Parser>(module, "Parser", nb::is_final(),
                        "Finds the messages in a byte stream. The result does not depend on how the stream is cut into\n"
-                       "chunks. Damage is counted and raises nothing. Safe from any thread, one at a time. The GIL is\n"
-                       "free while parsing.")
+                       "chunks. Damage is counted and never raises an error. Safe from any thread, one at a time. The\n"
+                       "GIL is free while parsing.")
         .def(nb::init<const nb::object&>(), nb::arg("dialect") = nb::none(),
              nb::sig("def __init__(self, dialect: Dialect | None = None) -> None"))
         .def("feed", &Parser::feed, nb::arg("data"), nb::arg("time_ns") = 0,

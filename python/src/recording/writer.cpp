@@ -128,7 +128,7 @@ void bind_recording_writer(nb::module_& module) {
         .def("write", &RecordingWriter::write, nb::arg("message"), nb::arg("time_ns") = nb::none(),
              nb::sig("def write(self, message: Message | MavutilMessage | Buffer, time_ns: int | None = None) -> None"),
              "Appends a Message, or the bytes of one whole frame. The time is that of the message; for bytes\n"
-             "it is the present time. `time_ns` replaces it.")
+             "it is the current time. `time_ns` replaces it.")
         .def("flush", &RecordingWriter::flush, "Writes the buffered records to the file.")
         .def("close", &RecordingWriter::close,
              "Writes the buffered records, waits for the disk and closes the file. May be called again.")

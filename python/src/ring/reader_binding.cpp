@@ -473,10 +473,11 @@ void bind_ring_reader(nb::module_& module) {
                  "def __init__(self, name: str, *, lossless: bool = False, start: typing.Literal['newest', 'oldest'] = "
                  "'newest', foreign: bool = False) -> None"),
              "NotFoundError lists the existing rings. Raises InputError if the file is not a ring of this\n"
-             "version, and SystemFailure for a 65th lossless reader. Without `foreign`, PermissionDeniedError for\n"
-             "a ring that users other than its owner may write, because they could end this process by shortening\n"
-             "it, and for a ring whose owner is neither this user, nor root, nor the owner of the folder of\n"
-             "the sockets (MAVLOOM_RUN, /run/mavloom).")
+             "version, and SystemFailure for a 65th lossless reader. Without `foreign`, raises\n"
+             "PermissionDeniedError in two cases:\n\n"
+             "- Users other than the owner may write the ring. They could end this process by shortening it.\n"
+             "- The owner is neither this user, nor root, nor the owner of the folder of the sockets\n"
+             "  (MAVLOOM_RUN, /run/mavloom).")
         .def(
             "read", [](PyRingReader& reader, const nb::object& timeout) { return reader.read(deadline_after(timeout)); },
             "timeout"_a = nb::none(), nb::sig("def read(self, timeout: float | None = None) -> Record | None"),
