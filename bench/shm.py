@@ -187,25 +187,24 @@ def main():
                         help="folder in which Aeron is installed")
     parser.add_argument("--rounds", type=int, default=7)
     parser.add_argument("--quick", action="store_true",
-                        help="one round with a tenth of the records: checks that it works, not how fast it is")
+                        help="one round with a fiftieth of the records: checks that it works, not how fast it is")
     parser.add_argument("--without", default="", help="peers to leave out: aeron,iceoryx,udp")
     parser.add_argument("--json", action="store_true", help="print one JSON object per line")
     options = parser.parse_args()
     options.tools, missing = options.tools.resolve(), []
+    scale = 50 if options.quick else 1
     if options.quick:
         options.rounds = 1
-    rows = throughputs(options.tools, options.peers.resolve(), 10 if options.quick else 1, options.without.split(","),
-                       missing)
+    rows = throughputs(options.tools, options.peers.resolve(), scale, options.without.split(","), missing)
     run([options.tools / "shm_throughput", "ring", 1, "threads", 200_000, FLIGHT, "verify"])
     bench = Bench(options)
     print(f"shm: {options.rounds} rounds; every record was compared", file=sys.stderr, flush=True)
     for row in rows:
         bench.throughput(*row)
-    times = 10 if options.quick else 1
-    bench.latency("hand-over, spinning", Latency(options.tools, "ring", 300_000 // times), "cache line",
-                  Latency(options.tools, "line", 300_000 // times), 3)
-    bench.latency("hand-over, futex", Latency(options.tools, "futex", 50_000 // times), "pipe",
-                  Latency(options.tools, "pipe", 50_000 // times), None)
+    bench.latency("hand-over, spinning", Latency(options.tools, "ring", 300_000 // scale), "cache line",
+                  Latency(options.tools, "line", 300_000 // scale), 3)
+    bench.latency("hand-over, futex", Latency(options.tools, "futex", 50_000 // scale), "pipe",
+                  Latency(options.tools, "pipe", 50_000 // scale), None)
     for line in missing:
         print(f"  {line}", file=sys.stderr)
 

@@ -204,7 +204,7 @@ def test_a_lapped_reader_ends_with_status_4(run, start, spawn, ring):
     """The reader is stopped while the writer evicts everything that was there."""
     writer = start("write", ring, "0", "evict")
     writer.wait_output("ready")
-    reader = spawn("shm", "read", ring, "--from", "oldest", "--json", "--count", "200000")
+    reader = spawn("shm", "read", ring, "--from", "oldest", "--json", "--count", "50000")
     reader.wait_output("sequence", stream="out")
     reader.send(signal.SIGSTOP)
     before = stat_of(run, ring)
