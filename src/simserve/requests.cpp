@@ -46,8 +46,10 @@ bool flag_at(const Json& request, const char* key) {
     return at != request.end() && at->is_boolean() && at->get<bool>();
 }
 
+using Vehicles = SetupResult<std::vector<sim::Vehicle*>>;
+
 // The vehicles that a request is for: the one with the id `system`, or all.
-SetupResult<std::vector<sim::Vehicle*>> vehicles_of(Simulator& simulator, const Json& request) {
+Vehicles vehicles_of(Simulator& simulator, const Json& request) {
     auto vehicles = simulator.vehicles();
     if (!request.contains("system")) return vehicles;
     const auto system = number_at(request, "system");
@@ -57,11 +59,10 @@ SetupResult<std::vector<sim::Vehicle*>> vehicles_of(Simulator& simulator, const 
     return vehicles;
 }
 
-// Gives all these vehicles an order, and reports their states after it. Of several vehicles, the error names the one
-// that refused.
-Later<Lines> order(Simulator& simulator, const Json& request, const Simulator::Order& order) {
-    const auto vehicles = vehicles_of(simulator, request);
-    if (!vehicles) return failed(vehicles.error().text);
+// Gives the request's vehicles an order, and returns them. Of several vehicles, the error names those that refused.
+Vehicles order(Simulator& simulator, const Json& request, const Simulator::Order& order) {
+    auto vehicles = vehicles_of(simulator, request);
+    if (!vehicles) return vehicles;
     std::string refusals;
     for (sim::Vehicle* const vehicle : *vehicles) {
         const auto given = simulator.give(*vehicle, order);
@@ -70,17 +71,22 @@ Later<Lines> order(Simulator& simulator, const Json& request, const Simulator::O
         refusals += vehicles->size() == 1 ? given.error().text
                                           : fmt::format("vehicle {}: {}", vehicle->system().value, given.error().text);
     }
-    return refusals.empty() ? with_end(report_state(*vehicles)) : failed(refusals);
+    if (!refusals.empty()) return setup_error(SetupCode::usage, std::move(refusals));
+    return vehicles;
+}
+
+Later<Lines> state_of(const Vehicles& vehicles) {
+    return vehicles ? with_end(report_state(*vehicles)) : failed(vehicles.error().text);
 }
 
 Later<Lines> arm(Simulator& simulator, const Json& request) {
     const bool forced = flag_at(request, "force");
-    return order(simulator, request, [forced](sim::Vehicle& vehicle) { return vehicle.arm(forced); });
+    return state_of(order(simulator, request, [forced](sim::Vehicle& vehicle) { return vehicle.arm(forced); }));
 }
 
 Later<Lines> disarm(Simulator& simulator, const Json& request) {
     const bool forced = flag_at(request, "force");
-    return order(simulator, request, [forced](sim::Vehicle& vehicle) { return vehicle.disarm(forced); });
+    return state_of(order(simulator, request, [forced](sim::Vehicle& vehicle) { return vehicle.disarm(forced); }));
 }
 
 Later<Lines> take_off(Simulator& simulator, const Json& request) {
@@ -88,22 +94,25 @@ Later<Lines> take_off(Simulator& simulator, const Json& request) {
     const auto altitude = number_at(request, "altitude");
     if (!altitude || !(*altitude >= lowest_m && *altitude <= highest_m))
         return failed(fmt::format("takeoff needs an altitude above home, {} to {} m", lowest_m, highest_m));
-    return order(simulator, request, [height = *altitude](sim::Vehicle& vehicle) { return vehicle.take_off(height); });
+    return state_of(
+        order(simulator, request, [height = *altitude](sim::Vehicle& vehicle) { return vehicle.take_off(height); }));
+}
+
+SetupResult<void> check_mode(const sim::Vehicle& vehicle, std::string_view name) {
+    const auto names = vehicle.mode_names();
+    const auto same = [&](std::string_view mode) {
+        return std::ranges::equal(mode, name,
+                                  [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
+    };
+    if (std::ranges::any_of(names, same)) return {};
+    return setup_error(SetupCode::usage, fmt::format("there is no mode {}{}; there are {}", in_quotes(name),
+                                                     did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
 Later<Lines> set_mode(Simulator& simulator, const Json& request) {
-    const auto name = text_at(request, "mode");
-    return order(simulator, request, [&](sim::Vehicle& vehicle) -> SetupResult<void> {
-        const auto names = vehicle.mode_names();
-        const auto same = [&](std::string_view mode) {
-            return std::ranges::equal(
-                mode, name, [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
-        };
-        if (std::ranges::none_of(names, same))
-            return setup_error(SetupCode::usage, fmt::format("there is no mode {}{}; there are {}", in_quotes(name),
-                                                             did_you_mean(name, names), fmt::join(names, ", ")));
-        return vehicle.set_mode(name);
-    });
+    return state_of(order(simulator, request, [name = text_at(request, "mode")](sim::Vehicle& vehicle) {
+        return check_mode(vehicle, name).and_then([&] { return vehicle.set_mode(name); });
+    }));
 }
 
 SetupResult<void> check_parameter(const sim::Vehicle& vehicle, std::string_view name) {
@@ -113,11 +122,9 @@ SetupResult<void> check_parameter(const sim::Vehicle& vehicle, std::string_view 
                        fmt::format("there is no parameter {}{}", in_quotes(name), did_you_mean(name, names)));
 }
 
-Later<Lines> show_parameter(Simulator& simulator, const Json& request, const std::string& name) {
-    const auto vehicles = vehicles_of(simulator, request);
-    if (!vehicles) return failed(vehicles.error().text);
+Later<Lines> show_parameter(const std::vector<sim::Vehicle*>& vehicles, std::string_view name) {
     Lines lines;
-    for (const sim::Vehicle* const vehicle : *vehicles) {
+    for (const sim::Vehicle* const vehicle : vehicles) {
         if (const auto good = check_parameter(*vehicle, name); !good) return failed(good.error().text);
         lines.push_back(line_of(Json{{"kind", "parameter"},
                                      {"system", vehicle->system().value},
@@ -127,16 +134,15 @@ Later<Lines> show_parameter(Simulator& simulator, const Json& request, const std
     return with_end([lines] { return lines; });
 }
 
+// Sets the parameter if the request has a value, and reports it.
 Later<Lines> parameter(Simulator& simulator, const Json& request) {
     const auto name = text_at(request, "name");
     const auto value = number_at(request, "value");
-    if (!value) return show_parameter(simulator, request, name);
-    const auto done = order(simulator, request, [&](sim::Vehicle& vehicle) -> SetupResult<void> {
-        if (auto good = check_parameter(vehicle, name); !good) return good;
-        return vehicle.set_parameter(name, *value);
-    });
-    const Lines lines = done();
-    return lines.size() > 1 ? show_parameter(simulator, request, name) : [lines] { return lines; };
+    const auto set = [&](sim::Vehicle& vehicle) {
+        return check_parameter(vehicle, name).and_then([&] { return vehicle.set_parameter(name, *value); });
+    };
+    const auto vehicles = value ? order(simulator, request, set) : vehicles_of(simulator, request);
+    return vehicles ? show_parameter(*vehicles, name) : failed(vehicles.error().text);
 }
 
 Later<Lines> add(Simulator& simulator, const std::string& url) {
@@ -160,11 +166,7 @@ struct Command {
 };
 
 constexpr std::array commands{
-    Command{"state",
-            [](Simulator& s, const Json& r) {
-                const auto vehicles = vehicles_of(s, r);
-                return vehicles ? with_end(report_state(*vehicles)) : failed(vehicles.error().text);
-            }},
+    Command{"state", [](Simulator& s, const Json& r) { return state_of(vehicles_of(s, r)); }},
     Command{"arm", arm},
     Command{"disarm", disarm},
     Command{"takeoff", take_off},
