@@ -8,35 +8,19 @@
 #include <optional>
 #include <utility>
 
+#include "control/json_request.hpp"
 #include "mavloom/base/shown.hpp"
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/simserve/report.hpp"
-#include "simserve/json_line.hpp"
 
 namespace mavloom::simserve {
 
 namespace {
 
-Later<Lines> failed(std::string_view why) {
-    return [line = line_of({{"ok", false}, {"error", why}})] { return Lines{line}; };
-}
+using control::failed;
+using control::Json;
+using control::text_at;
 
-Later<Lines> with_end(Later<Lines> report) {
-    return [report = std::move(report)] {
-        Lines lines = report();
-        lines.push_back(line_of({{"ok", true}}));
-        return lines;
-    };
-}
-
-Later<Lines> done() {
-    return with_end([] { return Lines{}; });
-}
-
-std::string text_at(const Json& request, const char* key) {
-    const auto at = request.find(key);
-    return at != request.end() && at->is_string() ? at->get<std::string>() : std::string();
-}
 std::optional<double> number_at(const Json& request, const char* key) {
     const auto at = request.find(key);
     return at != request.end() && at->is_number() ? std::optional(at->get<double>()) : std::nullopt;
@@ -75,21 +59,19 @@ Vehicles order(Simulator& simulator, const Json& request, const Simulator::Order
     return vehicles;
 }
 
-Later<Lines> state_of(const Vehicles& vehicles) {
-    return vehicles ? with_end(report_state(*vehicles)) : failed(vehicles.error().text);
-}
+Report state_of(const Vehicles& vehicles) { return vehicles ? report_state(*vehicles) : failed(vehicles.error().text); }
 
-Later<Lines> arm(Simulator& simulator, const Json& request) {
+Report arm(Simulator& simulator, const Json& request) {
     const bool forced = flag_at(request, "force");
     return state_of(order(simulator, request, [forced](sim::Vehicle& vehicle) { return vehicle.arm(forced); }));
 }
 
-Later<Lines> disarm(Simulator& simulator, const Json& request) {
+Report disarm(Simulator& simulator, const Json& request) {
     const bool forced = flag_at(request, "force");
     return state_of(order(simulator, request, [forced](sim::Vehicle& vehicle) { return vehicle.disarm(forced); }));
 }
 
-Later<Lines> take_off(Simulator& simulator, const Json& request) {
+Report take_off(Simulator& simulator, const Json& request) {
     constexpr double lowest_m = 0.5, highest_m = 10'000;
     const auto altitude = number_at(request, "altitude");
     if (!altitude || !(*altitude >= lowest_m && *altitude <= highest_m))
@@ -109,7 +91,7 @@ SetupResult<void> check_mode(const sim::Vehicle& vehicle, std::string_view name)
                                                      did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
-Later<Lines> set_mode(Simulator& simulator, const Json& request) {
+Report set_mode(Simulator& simulator, const Json& request) {
     return state_of(order(simulator, request, [name = text_at(request, "mode")](sim::Vehicle& vehicle) {
         return check_mode(vehicle, name).and_then([&] { return vehicle.set_mode(name); });
     }));
@@ -122,20 +104,20 @@ SetupResult<void> check_parameter(const sim::Vehicle& vehicle, std::string_view 
                        fmt::format("there is no parameter {}{}", in_quotes(name), did_you_mean(name, names)));
 }
 
-Later<Lines> show_parameter(const std::vector<sim::Vehicle*>& vehicles, std::string_view name) {
-    Lines lines;
+Report show_parameter(const std::vector<sim::Vehicle*>& vehicles, std::string_view name) {
+    std::string text;
     for (const sim::Vehicle* const vehicle : vehicles) {
         if (const auto good = check_parameter(*vehicle, name); !good) return failed(good.error().text);
-        lines.push_back(line_of(Json{{"kind", "parameter"},
-                                     {"system", vehicle->system().value},
-                                     {"name", name},
-                                     {"value", *vehicle->parameter(name)}}));
+        control::append_line(text, {{"kind", "parameter"},
+                                    {"system", vehicle->system().value},
+                                    {"name", name},
+                                    {"value", *vehicle->parameter(name)}});
     }
-    return with_end([lines] { return lines; });
+    return control::succeeded([text](std::string& to) { to += text; });
 }
 
 // Sets the parameter if the request has a value, and reports it.
-Later<Lines> parameter(Simulator& simulator, const Json& request) {
+Report parameter(Simulator& simulator, const Json& request) {
     const auto name = text_at(request, "name");
     const auto value = number_at(request, "value");
     const auto set = [&](sim::Vehicle& vehicle) {
@@ -145,25 +127,22 @@ Later<Lines> parameter(Simulator& simulator, const Json& request) {
     return vehicles ? show_parameter(*vehicles, name) : failed(vehicles.error().text);
 }
 
-Later<Lines> add(Simulator& simulator, const std::string& url) {
+Report add(Simulator& simulator, const std::string& url) {
     const auto endpoint = endpoint::parse_endpoint(url);
     if (!endpoint) return failed(endpoint.error().text);
     if (const auto added = simulator.add(SimEndpoint{*endpoint}); !added) return failed(added.error().text);
     simulator.notify(config::LogLevel::info, endpoint->label() + ": added by ctl");
-    return done();
+    return control::succeeded();
 }
 
-Later<Lines> remove(Simulator& simulator, const std::string& name) {
+Report remove(Simulator& simulator, const std::string& name) {
     if (!simulator.remove(name))
         return failed(fmt::format("there is no endpoint {}, and no link that could be closed; links shows them", name));
     simulator.notify(config::LogLevel::info, name + ": removed by ctl");
-    return done();
+    return control::succeeded();
 }
 
-struct Command {
-    std::string_view name;
-    Later<Lines> (*answer)(Simulator&, const Json&);
-};
+using Command = control::Command<Simulator>;
 
 constexpr std::array commands{
     Command{"state", [](Simulator& s, const Json& r) { return state_of(vehicles_of(s, r)); }},
@@ -172,30 +151,23 @@ constexpr std::array commands{
     Command{"takeoff", take_off},
     Command{"mode", set_mode},
     Command{"param", parameter},
-    Command{"links", [](Simulator& s, const Json&) { return with_end(report_links(s)); }},
-    Command{"streams", [](Simulator& s, const Json&) { return with_end(report_streams(s)); }},
-    Command{"stats", [](Simulator& s, const Json&) { return with_end(report_stats(s)); }},
+    Command{"links", [](Simulator& s, const Json&) { return report_links(s); }},
+    Command{"streams", [](Simulator& s, const Json&) { return report_streams(s); }},
+    Command{"stats", [](Simulator& s, const Json&) { return report_stats(s); }},
     Command{"add", [](Simulator& s, const Json& r) { return add(s, text_at(r, "url")); }},
     Command{"remove", [](Simulator& s, const Json& r) { return remove(s, text_at(r, "name")); }},
 };
 
 }  // namespace
 
-Later<Lines> answer_request(Simulator& simulator, std::string_view request) {
-    const auto parsed = Json::parse(request, nullptr, false);
-    if (!parsed.is_object()) return failed("a request is one JSON object per line, as in {\"cmd\":\"state\"}");
-    const auto name = text_at(parsed, "cmd");
-    const auto command = std::ranges::find(commands, name, &Command::name);
-    if (command != commands.end()) return command->answer(simulator, parsed);
-    std::array<std::string_view, commands.size()> names;
-    std::ranges::transform(commands, names.begin(), &Command::name);
-    return failed(fmt::format("a simulator has no command {}; there are {}", in_quotes(name), fmt::join(names, ", ")));
+Report answer_request(Simulator& simulator, std::string_view request) {
+    return control::answer_request(simulator, request, commands, [](std::string_view name) {
+        return fmt::format("a simulator has no command {}", in_quotes(name));
+    });
 }
 
-control::Report Simulator::answer(std::string_view request) {
-    return control::report_of(answer_request(*this, request));
-}
+Report Simulator::answer(std::string_view request) { return answer_request(*this, request); }
 
-control::Report Simulator::metrics() { return control::report_of(report_metrics(*this)); }
+Report Simulator::metrics() { return report_metrics(*this); }
 
 }  // namespace mavloom::simserve
