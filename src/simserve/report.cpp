@@ -6,16 +6,16 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <utility>
 
+#include "control/json_request.hpp"
 #include "mavloom/control/metrics_text.hpp"
 #include "mavloom/link/snapshot.hpp"
-#include "simserve/json_line.hpp"
 
 namespace mavloom::simserve {
 
 namespace {
 
+using control::append_line;
 using control::MetricsText;
 using link::NamedCount;
 
@@ -36,31 +36,31 @@ std::string_view landed_name(sim::LandedState state) {
 // Rounds to so many decimals, so that lines stay readable.
 double rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
 
-std::string vehicle_line(const sim::VehicleStatus& s) {
-    return line_of(Json{{"kind", "vehicle"},
-                        {"system", s.system.value},
-                        {"type", sim::kind_names[static_cast<std::size_t>(s.kind)]},
-                        {"autopilot", sim::autopilot_names[static_cast<std::size_t>(s.autopilot)]},
-                        {"armed", s.armed},
-                        {"ready", s.ready},
-                        {"mode", s.mode},
-                        {"custom_mode", s.custom_mode},
-                        {"landed_state", landed_name(s.landed)},
-                        {"lat", rounded(s.latitude_deg, 1e7)},
-                        {"lon", rounded(s.longitude_deg, 1e7)},
-                        {"alt_m", rounded(s.altitude_m, 1e3)},
-                        {"relative_alt_m", rounded(s.relative_altitude_m, 1e3)},
-                        {"vn_m_s", rounded(s.north_m_s, 1e3)},
-                        {"ve_m_s", rounded(s.east_m_s, 1e3)},
-                        {"vd_m_s", rounded(s.down_m_s, 1e3)},
-                        {"roll_deg", rounded(s.roll_deg, 1e2)},
-                        {"pitch_deg", rounded(s.pitch_deg, 1e2)},
-                        {"heading_deg", rounded(s.heading_deg, 1e2)},
-                        {"battery_percent", rounded(s.battery_percent, 1e1)},
-                        {"battery_v", rounded(s.battery_volts, 1e3)},
-                        {"mission_items", s.mission_items},
-                        {"mission_current", s.mission_current},
-                        {"boot_s", rounded(seconds(s.since_boot), 1e3)}});
+void append_vehicle(std::string& text, const sim::VehicleStatus& s) {
+    append_line(text, {{"kind", "vehicle"},
+                       {"system", s.system.value},
+                       {"type", sim::kind_names[static_cast<std::size_t>(s.kind)]},
+                       {"autopilot", sim::autopilot_names[static_cast<std::size_t>(s.autopilot)]},
+                       {"armed", s.armed},
+                       {"ready", s.ready},
+                       {"mode", s.mode},
+                       {"custom_mode", s.custom_mode},
+                       {"landed_state", landed_name(s.landed)},
+                       {"lat", rounded(s.latitude_deg, 1e7)},
+                       {"lon", rounded(s.longitude_deg, 1e7)},
+                       {"alt_m", rounded(s.altitude_m, 1e3)},
+                       {"relative_alt_m", rounded(s.relative_altitude_m, 1e3)},
+                       {"vn_m_s", rounded(s.north_m_s, 1e3)},
+                       {"ve_m_s", rounded(s.east_m_s, 1e3)},
+                       {"vd_m_s", rounded(s.down_m_s, 1e3)},
+                       {"roll_deg", rounded(s.roll_deg, 1e2)},
+                       {"pitch_deg", rounded(s.pitch_deg, 1e2)},
+                       {"heading_deg", rounded(s.heading_deg, 1e2)},
+                       {"battery_percent", rounded(s.battery_percent, 1e1)},
+                       {"battery_v", rounded(s.battery_volts, 1e3)},
+                       {"mission_items", s.mission_items},
+                       {"mission_current", s.mission_current},
+                       {"boot_s", rounded(seconds(s.since_boot), 1e3)}});
 }
 
 std::vector<sim::VehicleStatus> statuses_of(const std::vector<sim::Vehicle*>& vehicles) {
@@ -70,19 +70,11 @@ std::vector<sim::VehicleStatus> statuses_of(const std::vector<sim::Vehicle*>& ve
     return all;
 }
 
-void add(Lines& lines, const std::vector<sim::VehicleStatus>& statuses) {
-    for (const auto& status : statuses) lines.push_back(vehicle_line(status));
-}
-
 std::vector<NamedCount> counts_of(const SimulatorTotals& totals) {
     return {{"frames_sent", totals.frames_sent},
             {"bytes_sent", totals.bytes_sent},
             {"gaps", totals.gaps},
             {"frames_received", totals.frames_received}};
-}
-
-void put(Json& object, const std::vector<NamedCount>& counts) {
-    for (const auto& count : counts) object[std::string(count.name)] = count.value;
 }
 
 // A copy of a simulator's counters, taken between two turns.
@@ -103,75 +95,35 @@ Snapshot snapshot_of(Simulator& simulator) {
     return s;
 }
 
-void add_links(Lines& lines, const link::Snapshot& s) {
-    for (const auto& link : s.links) {
-        Json object{
-            {"kind", "link"}, {"link", link.name}, {"endpoint", s.endpoint_label(link.endpoint)}, {"up", link.up}};
-        put(object, link.counts);
-        lines.push_back(line_of(object));
-    }
-}
-
-void add_endpoints(Lines& lines, const link::Snapshot& s) {
+void append_stats(std::string& text, const Snapshot& s) {
+    append_line(text,
+                {{"kind", "sim"}, {"uptime_s", seconds(s.uptime)}, {"speed", s.speed}, {"vehicles", s.vehicles.size()}},
+                s.counts);
     for (const auto& endpoint : s.endpoints) {
-        Json object{{"kind", "endpoint"},
-                    {"endpoint", endpoint.label},
-                    {"scheme", endpoint::scheme_name(endpoint.scheme)},
-                    {"rcvbuf", endpoint.rcvbuf_bytes}};
-        put(object, endpoint.counts);
-        lines.push_back(line_of(object));
-        Json gone{{"kind", "gone"}, {"endpoint", endpoint.label}};
-        put(gone, endpoint.gone);
-        lines.push_back(line_of(gone));
+        control::append_endpoint(text, endpoint);
+        control::append_gone(text, endpoint);
     }
-}
-
-void add_sources(Lines& lines, const link::Snapshot& snapshot) {
-    for (const auto& link : snapshot.links)
-        for (const auto& s : link.sources)
-            lines.push_back(line_of({{"kind", "source"},
-                                     {"link", link.name},
-                                     {"sys", s.source.system.value},
-                                     {"comp", s.source.component.value},
-                                     {"frames", s.received},
-                                     {"lost", s.lost},
-                                     {"late", s.late},
-                                     {"repeated", s.duplicate},
-                                     {"resync", s.resync},
-                                     {"no_sequence", s.no_sequence}}));
-}
-
-Lines stat_lines(const Snapshot& s) {
-    Json object{{"kind", "sim"}, {"uptime_s", seconds(s.uptime)}, {"speed", s.speed}, {"vehicles", s.vehicles.size()}};
-    put(object, s.counts);
-    Lines lines{line_of(object)};
-    add_endpoints(lines, s);
-    add_links(lines, s);
-    add_sources(lines, s);
-    add(lines, s.vehicles);
-    return lines;
+    for (const auto& link : s.links) control::append_link(text, s, link);
+    for (const auto& link : s.links) control::append_sources(text, link);
+    for (const auto& vehicle : s.vehicles) append_vehicle(text, vehicle);
 }
 
 }  // namespace
 
-Later<Lines> report_state(const std::vector<sim::Vehicle*>& vehicles) {
-    return [statuses = statuses_of(vehicles)] {
-        Lines lines;
-        add(lines, statuses);
-        return lines;
-    };
+Report report_state(const std::vector<sim::Vehicle*>& vehicles) {
+    return control::succeeded([statuses = statuses_of(vehicles)](std::string& text) {
+        for (const auto& status : statuses) append_vehicle(text, status);
+    });
 }
 
-Later<Lines> report_links(Simulator& simulator) {
-    return [s = link::snapshot_of(simulator.links())] {
-        Lines lines;
-        add_links(lines, s);
-        return lines;
-    };
+Report report_links(Simulator& simulator) {
+    return control::succeeded([s = link::snapshot_of(simulator.links())](std::string& text) {
+        for (const auto& link : s.links) control::append_link(text, s, link);
+    });
 }
 
-Later<Lines> report_stats(Simulator& simulator) {
-    return [s = snapshot_of(simulator)] { return stat_lines(s); };
+Report report_stats(Simulator& simulator) {
+    return control::succeeded([s = snapshot_of(simulator)](std::string& text) { append_stats(text, s); });
 }
 
 // ---- streams --------------------------------------------------------------------------------------------------------
@@ -188,44 +140,42 @@ Row row_of(const sim::StreamReport& stream, double speed) {
             milliseconds(stream.lateness.at(0.99)) / speed};
 }
 
-void add_streams(Lines& lines, const LinkReport& report, double speed) {
+void append_streams(std::string& text, const LinkReport& report, double speed) {
     for (const auto& stream : report.streams) {
         const Row row = row_of(stream, speed);
-        lines.push_back(line_of(Json{{"kind", "stream"},
-                                     {"link", report.link},
-                                     {"system", stream.system.value},
-                                     {"id", stream.message.value},
-                                     {"name", stream.name},
-                                     {"asked_hz", rounded(row.asked_hz, 1e4)},
-                                     {"achieved_hz", rounded(row.achieved_hz, 1e4)},
-                                     {"sent", stream.sent},
-                                     {"skipped", stream.skipped},
-                                     {"jitter_median_ms", row.median_ms},
-                                     {"jitter_p99_ms", row.p99_ms}}));
+        append_line(text, {{"kind", "stream"},
+                           {"link", report.link},
+                           {"system", stream.system.value},
+                           {"id", stream.message.value},
+                           {"name", stream.name},
+                           {"asked_hz", rounded(row.asked_hz, 1e4)},
+                           {"achieved_hz", rounded(row.achieved_hz, 1e4)},
+                           {"sent", stream.sent},
+                           {"skipped", stream.skipped},
+                           {"jitter_median_ms", row.median_ms},
+                           {"jitter_p99_ms", row.p99_ms}});
     }
 }
 
 }  // namespace
 
-Later<Lines> report_streams(Simulator& simulator) {
-    return [reports = simulator.reports(), speed = simulator.options().speed] {
-        Lines lines;
-        for (const auto& report : reports) add_streams(lines, report, speed);
-        return lines;
-    };
+Report report_streams(Simulator& simulator) {
+    return control::succeeded([reports = simulator.reports(), speed = simulator.options().speed](std::string& text) {
+        for (const auto& report : reports) append_streams(text, report, speed);
+    });
 }
 
-Lines lines_of(const std::vector<LinkReport>& reports, double speed) {
-    Lines lines;
+std::string json_of(const std::vector<LinkReport>& reports, double speed) {
+    std::string text;
     for (const auto& report : reports) {
-        add_streams(lines, report, speed);
-        lines.push_back(line_of(Json{{"kind", "link_total"},
-                                     {"link", report.link},
-                                     {"frames", report.frames},
-                                     {"bytes", report.bytes},
-                                     {"gaps", report.gaps}}));
+        append_streams(text, report, speed);
+        append_line(text, {{"kind", "link_total"},
+                           {"link", report.link},
+                           {"frames", report.frames},
+                           {"bytes", report.bytes},
+                           {"gaps", report.gaps}});
     }
-    return lines;
+    return text;
 }
 
 std::string text_of(const std::vector<LinkReport>& reports, double speed) {
@@ -265,8 +215,8 @@ std::string metrics_text(const Snapshot& s) {
 
 }  // namespace
 
-Later<std::string> report_metrics(Simulator& simulator) {
-    return [s = snapshot_of(simulator)] { return metrics_text(s); };
+Report report_metrics(Simulator& simulator) {
+    return control::report_of([s = snapshot_of(simulator)] { return metrics_text(s); });
 }
 
 }  // namespace mavloom::simserve

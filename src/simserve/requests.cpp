@@ -8,35 +8,19 @@
 #include <optional>
 #include <utility>
 
+#include "control/json_request.hpp"
 #include "mavloom/base/shown.hpp"
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/simserve/report.hpp"
-#include "simserve/json_line.hpp"
 
 namespace mavloom::simserve {
 
 namespace {
 
-Later<Lines> failed(std::string_view why) {
-    return [line = line_of({{"ok", false}, {"error", why}})] { return Lines{line}; };
-}
+using control::failed;
+using control::Json;
+using control::text_at;
 
-Later<Lines> with_end(Later<Lines> report) {
-    return [report = std::move(report)] {
-        Lines lines = report();
-        lines.push_back(line_of({{"ok", true}}));
-        return lines;
-    };
-}
-
-Later<Lines> done() {
-    return with_end([] { return Lines{}; });
-}
-
-std::string text_at(const Json& request, const char* key) {
-    const auto at = request.find(key);
-    return at != request.end() && at->is_string() ? at->get<std::string>() : std::string();
-}
 std::optional<double> number_at(const Json& request, const char* key) {
     const auto at = request.find(key);
     return at != request.end() && at->is_number() ? std::optional(at->get<double>()) : std::nullopt;
@@ -46,8 +30,10 @@ bool flag_at(const Json& request, const char* key) {
     return at != request.end() && at->is_boolean() && at->get<bool>();
 }
 
+using Vehicles = SetupResult<std::vector<sim::Vehicle*>>;
+
 // The vehicles that a request is for: the one with the id `system`, or all.
-SetupResult<std::vector<sim::Vehicle*>> vehicles_of(Simulator& simulator, const Json& request) {
+Vehicles vehicles_of(Simulator& simulator, const Json& request) {
     auto vehicles = simulator.vehicles();
     if (!request.contains("system")) return vehicles;
     const auto system = number_at(request, "system");
@@ -57,11 +43,10 @@ SetupResult<std::vector<sim::Vehicle*>> vehicles_of(Simulator& simulator, const 
     return vehicles;
 }
 
-// Gives all these vehicles an order, and reports their states after it. Of several vehicles, the error names the one
-// that refused.
-Later<Lines> order(Simulator& simulator, const Json& request, const Simulator::Order& order) {
-    const auto vehicles = vehicles_of(simulator, request);
-    if (!vehicles) return failed(vehicles.error().text);
+// Gives the request's vehicles an order, and returns them. Of several vehicles, the error names those that refused.
+Vehicles order(Simulator& simulator, const Json& request, const Simulator::Order& order) {
+    auto vehicles = vehicles_of(simulator, request);
+    if (!vehicles) return vehicles;
     std::string refusals;
     for (sim::Vehicle* const vehicle : *vehicles) {
         const auto given = simulator.give(*vehicle, order);
@@ -70,40 +55,46 @@ Later<Lines> order(Simulator& simulator, const Json& request, const Simulator::O
         refusals += vehicles->size() == 1 ? given.error().text
                                           : fmt::format("vehicle {}: {}", vehicle->system().value, given.error().text);
     }
-    return refusals.empty() ? with_end(report_state(*vehicles)) : failed(refusals);
+    if (!refusals.empty()) return setup_error(SetupCode::usage, std::move(refusals));
+    return vehicles;
 }
 
-Later<Lines> arm(Simulator& simulator, const Json& request) {
+Report state_of(const Vehicles& vehicles) { return vehicles ? report_state(*vehicles) : failed(vehicles.error().text); }
+
+Report arm(Simulator& simulator, const Json& request) {
     const bool forced = flag_at(request, "force");
-    return order(simulator, request, [forced](sim::Vehicle& vehicle) { return vehicle.arm(forced); });
+    return state_of(order(simulator, request, [forced](sim::Vehicle& vehicle) { return vehicle.arm(forced); }));
 }
 
-Later<Lines> disarm(Simulator& simulator, const Json& request) {
+Report disarm(Simulator& simulator, const Json& request) {
     const bool forced = flag_at(request, "force");
-    return order(simulator, request, [forced](sim::Vehicle& vehicle) { return vehicle.disarm(forced); });
+    return state_of(order(simulator, request, [forced](sim::Vehicle& vehicle) { return vehicle.disarm(forced); }));
 }
 
-Later<Lines> take_off(Simulator& simulator, const Json& request) {
+Report take_off(Simulator& simulator, const Json& request) {
     constexpr double lowest_m = 0.5, highest_m = 10'000;
     const auto altitude = number_at(request, "altitude");
     if (!altitude || !(*altitude >= lowest_m && *altitude <= highest_m))
         return failed(fmt::format("takeoff needs an altitude above home, {} to {} m", lowest_m, highest_m));
-    return order(simulator, request, [height = *altitude](sim::Vehicle& vehicle) { return vehicle.take_off(height); });
+    return state_of(
+        order(simulator, request, [height = *altitude](sim::Vehicle& vehicle) { return vehicle.take_off(height); }));
 }
 
-Later<Lines> set_mode(Simulator& simulator, const Json& request) {
-    const auto name = text_at(request, "mode");
-    return order(simulator, request, [&](sim::Vehicle& vehicle) -> SetupResult<void> {
-        const auto names = vehicle.mode_names();
-        const auto same = [&](std::string_view mode) {
-            return std::ranges::equal(
-                mode, name, [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
-        };
-        if (std::ranges::none_of(names, same))
-            return setup_error(SetupCode::usage, fmt::format("there is no mode {}{}; there are {}", in_quotes(name),
-                                                             did_you_mean(name, names), fmt::join(names, ", ")));
-        return vehicle.set_mode(name);
-    });
+SetupResult<void> check_mode(const sim::Vehicle& vehicle, std::string_view name) {
+    const auto names = vehicle.mode_names();
+    const auto same = [&](std::string_view mode) {
+        return std::ranges::equal(mode, name,
+                                  [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
+    };
+    if (std::ranges::any_of(names, same)) return {};
+    return setup_error(SetupCode::usage, fmt::format("there is no mode {}{}; there are {}", in_quotes(name),
+                                                     did_you_mean(name, names), fmt::join(names, ", ")));
+}
+
+Report set_mode(Simulator& simulator, const Json& request) {
+    return state_of(order(simulator, request, [name = text_at(request, "mode")](sim::Vehicle& vehicle) {
+        return check_mode(vehicle, name).and_then([&] { return vehicle.set_mode(name); });
+    }));
 }
 
 SetupResult<void> check_parameter(const sim::Vehicle& vehicle, std::string_view name) {
@@ -113,87 +104,70 @@ SetupResult<void> check_parameter(const sim::Vehicle& vehicle, std::string_view 
                        fmt::format("there is no parameter {}{}", in_quotes(name), did_you_mean(name, names)));
 }
 
-Later<Lines> show_parameter(Simulator& simulator, const Json& request, const std::string& name) {
-    const auto vehicles = vehicles_of(simulator, request);
-    if (!vehicles) return failed(vehicles.error().text);
-    Lines lines;
-    for (const sim::Vehicle* const vehicle : *vehicles) {
+Report show_parameter(const std::vector<sim::Vehicle*>& vehicles, std::string_view name) {
+    std::string text;
+    for (const sim::Vehicle* const vehicle : vehicles) {
         if (const auto good = check_parameter(*vehicle, name); !good) return failed(good.error().text);
-        lines.push_back(line_of(Json{{"kind", "parameter"},
-                                     {"system", vehicle->system().value},
-                                     {"name", name},
-                                     {"value", *vehicle->parameter(name)}}));
+        control::append_line(text, {{"kind", "parameter"},
+                                    {"system", vehicle->system().value},
+                                    {"name", name},
+                                    {"value", *vehicle->parameter(name)}});
     }
-    return with_end([lines] { return lines; });
+    return control::succeeded([text](std::string& to) { to += text; });
 }
 
-Later<Lines> parameter(Simulator& simulator, const Json& request) {
+// Sets the parameter if the request has a value, and reports it.
+Report parameter(Simulator& simulator, const Json& request) {
     const auto name = text_at(request, "name");
     const auto value = number_at(request, "value");
-    if (!value) return show_parameter(simulator, request, name);
-    const auto done = order(simulator, request, [&](sim::Vehicle& vehicle) -> SetupResult<void> {
-        if (auto good = check_parameter(vehicle, name); !good) return good;
-        return vehicle.set_parameter(name, *value);
-    });
-    const Lines lines = done();
-    return lines.size() > 1 ? show_parameter(simulator, request, name) : [lines] { return lines; };
+    const auto set = [&](sim::Vehicle& vehicle) {
+        return check_parameter(vehicle, name).and_then([&] { return vehicle.set_parameter(name, *value); });
+    };
+    const auto vehicles = value ? order(simulator, request, set) : vehicles_of(simulator, request);
+    return vehicles ? show_parameter(*vehicles, name) : failed(vehicles.error().text);
 }
 
-Later<Lines> add(Simulator& simulator, const std::string& url) {
+Report add(Simulator& simulator, const std::string& url) {
     const auto endpoint = endpoint::parse_endpoint(url);
     if (!endpoint) return failed(endpoint.error().text);
     if (const auto added = simulator.add(SimEndpoint{*endpoint}); !added) return failed(added.error().text);
     simulator.notify(config::LogLevel::info, endpoint->label() + ": added by ctl");
-    return done();
+    return control::succeeded();
 }
 
-Later<Lines> remove(Simulator& simulator, const std::string& name) {
+Report remove(Simulator& simulator, const std::string& name) {
     if (!simulator.remove(name))
         return failed(fmt::format("there is no endpoint {}, and no link that could be closed; links shows them", name));
     simulator.notify(config::LogLevel::info, name + ": removed by ctl");
-    return done();
+    return control::succeeded();
 }
 
-struct Command {
-    std::string_view name;
-    Later<Lines> (*answer)(Simulator&, const Json&);
-};
+using Command = control::Command<Simulator>;
 
 constexpr std::array commands{
-    Command{"state",
-            [](Simulator& s, const Json& r) {
-                const auto vehicles = vehicles_of(s, r);
-                return vehicles ? with_end(report_state(*vehicles)) : failed(vehicles.error().text);
-            }},
+    Command{"state", [](Simulator& s, const Json& r) { return state_of(vehicles_of(s, r)); }},
     Command{"arm", arm},
     Command{"disarm", disarm},
     Command{"takeoff", take_off},
     Command{"mode", set_mode},
     Command{"param", parameter},
-    Command{"links", [](Simulator& s, const Json&) { return with_end(report_links(s)); }},
-    Command{"streams", [](Simulator& s, const Json&) { return with_end(report_streams(s)); }},
-    Command{"stats", [](Simulator& s, const Json&) { return with_end(report_stats(s)); }},
+    Command{"links", [](Simulator& s, const Json&) { return report_links(s); }},
+    Command{"streams", [](Simulator& s, const Json&) { return report_streams(s); }},
+    Command{"stats", [](Simulator& s, const Json&) { return report_stats(s); }},
     Command{"add", [](Simulator& s, const Json& r) { return add(s, text_at(r, "url")); }},
     Command{"remove", [](Simulator& s, const Json& r) { return remove(s, text_at(r, "name")); }},
 };
 
 }  // namespace
 
-Later<Lines> answer_request(Simulator& simulator, std::string_view request) {
-    const auto parsed = Json::parse(request, nullptr, false);
-    if (!parsed.is_object()) return failed("a request is one JSON object per line, as in {\"cmd\":\"state\"}");
-    const auto name = text_at(parsed, "cmd");
-    const auto command = std::ranges::find(commands, name, &Command::name);
-    if (command != commands.end()) return command->answer(simulator, parsed);
-    std::array<std::string_view, commands.size()> names;
-    std::ranges::transform(commands, names.begin(), &Command::name);
-    return failed(fmt::format("a simulator has no command {}; there are {}", in_quotes(name), fmt::join(names, ", ")));
+Report answer_request(Simulator& simulator, std::string_view request) {
+    return control::answer_request(simulator, request, commands, [](std::string_view name) {
+        return fmt::format("a simulator has no command {}", in_quotes(name));
+    });
 }
 
-control::Report Simulator::answer(std::string_view request) {
-    return control::report_of(answer_request(*this, request));
-}
+Report Simulator::answer(std::string_view request) { return answer_request(*this, request); }
 
-control::Report Simulator::metrics() { return control::report_of(report_metrics(*this)); }
+Report Simulator::metrics() { return report_metrics(*this); }
 
 }  // namespace mavloom::simserve

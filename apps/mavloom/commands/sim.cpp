@@ -176,11 +176,8 @@ void log_vehicles(const Common& common, const Scenario& scenario, Simulator& sim
 Exit print_report(const SimOptions& options, const Scenario& scenario, const Simulator& simulator, Exit otherwise) {
     if (!scenario.has_report) return otherwise;
     const auto reports = simulator.reports();
-    std::string text;
-    if (options.json)
-        for (const auto& line : simserve::lines_of(reports, scenario.speed)) text += line + "\n";
-    else text = simserve::text_of(reports, scenario.speed);
-    return print_at_end(text, otherwise);
+    const auto text_of = options.json ? simserve::json_of : simserve::text_of;
+    return print_at_end(text_of(reports, scenario.speed), otherwise);
 }
 
 void fly(const Scenario& scenario, Simulator& simulator) {

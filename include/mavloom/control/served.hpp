@@ -6,15 +6,8 @@
 #include <functional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace mavloom::control {
-
-using Lines = std::vector<std::string>;
-
-// Formats an answer later, on another thread. Formatting takes about a hundred times as long as copying the counters.
-template <class Text>
-using Later = std::function<Text()>;
 
 // An answer that is copied and formatted in pieces. This keeps each turn of the owner's loop short, and limits the
 // memory that a slow client occupies.
@@ -27,8 +20,7 @@ struct Report {
     std::function<std::string()> next_text;
 };
 // Returns a report whose data is already copied and whose text is one piece.
-[[nodiscard]] Report report_of(Later<Lines> lines);
-[[nodiscard]] Report report_of(Later<std::string> text);
+[[nodiscard]] Report report_of(std::function<std::string()> text);
 
 class Served {
 public:

@@ -2,8 +2,8 @@
 // Reports of a simulator: JSON, one object per line, for `mavloom ctl` and `mavloom sim --json`; text for people;
 // metrics. docs/guide/sim.md documents the keys.
 //
-// Call the functions that take a Simulator on its thread. They only copy data; the function that they return makes the
-// text, on any thread. All of them allocate.
+// Call the functions that take a Simulator on its thread. They only copy data; Report::next_text makes the text, on any
+// thread. All of them allocate.
 #pragma once
 
 #include <string>
@@ -13,27 +13,28 @@
 
 namespace mavloom::simserve {
 
-using control::Later;
-using control::Lines;
+using control::Report;
+
+// `report_state`, `report_links`, `report_streams` and `report_stats` end with the line {"ok":true}.
 
 // One {"kind":"vehicle",...} line for each of the vehicles.
-[[nodiscard]] Later<Lines> report_state(const std::vector<sim::Vehicle*>& vehicles);
+[[nodiscard]] Report report_state(const std::vector<sim::Vehicle*>& vehicles);
 // One "link" line for each current link.
-[[nodiscard]] Later<Lines> report_links(Simulator& simulator);
+[[nodiscard]] Report report_links(Simulator& simulator);
 // One "stream" line for each stream of each link.
-[[nodiscard]] Later<Lines> report_streams(Simulator& simulator);
+[[nodiscard]] Report report_streams(Simulator& simulator);
 // One "sim" line, then "endpoint", "gone", "link", "source" and "vehicle" lines.
-[[nodiscard]] Later<Lines> report_stats(Simulator& simulator);
+[[nodiscard]] Report report_stats(Simulator& simulator);
 // Prometheus' text exposition format, version 0.0.4.
-[[nodiscard]] Later<std::string> report_metrics(Simulator& simulator);
+[[nodiscard]] Report report_metrics(Simulator& simulator);
 
 // The report at the end of a run: a "stream" line for each stream, then a "link_total" line for each link.
-[[nodiscard]] Lines lines_of(const std::vector<LinkReport>& reports, double speed);
+[[nodiscard]] std::string json_of(const std::vector<LinkReport>& reports, double speed);
 // The same report as a table for people.
 [[nodiscard]] std::string text_of(const std::vector<LinkReport>& reports, double speed);
 
 // Implements Simulator::answer. Executes one request line, for example {"cmd":"arm","system":1}. Returns the lines of
 // the answer; the last is {"ok":true} or {"ok":false,"error":"..."}.
-[[nodiscard]] Later<Lines> answer_request(Simulator& simulator, std::string_view request);
+[[nodiscard]] Report answer_request(Simulator& simulator, std::string_view request);
 
 }  // namespace mavloom::simserve

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/router/report.hpp"
 
-#include <nlohmann/json.hpp>
 #include <utility>
 
-#include "router/report/json_line.hpp"
+#include "control/json_lines.hpp"
 #include "router/report/pieces.hpp"
 #include "router/report/snapshot.hpp"
 
@@ -12,70 +11,24 @@ namespace mavloom::router {
 
 namespace {
 
-using link::NamedCount;
+using control::append_line;
+using control::Json;
 using Shared = std::shared_ptr<Snapshot>;
-
-void put(Json& object, const std::vector<NamedCount>& counts) {
-    for (const auto& count : counts) object[std::string(count.name)] = count.value;
-}
-
-void append(std::string& text, const Json& object) { text.append(line_of(object)).push_back('\n'); }
 
 double seconds(Nanoseconds time) { return std::chrono::duration<double>(time).count(); }
 
 AppendRow router_line(const Snapshot& s) {
     return once([&s](std::string& text) {
-        Json object{{"kind", "router"}, {"uptime_s", seconds(s.uptime)}};
-        put(object, s.counts);
-        append(text, object);
+        append_line(text, {{"kind", "router"}, {"uptime_s", seconds(s.uptime)}}, s.counts);
     });
 }
 
-AppendRow endpoint_lines(const Snapshot& s) {
-    return each_of(s.endpoints, [](std::string& text, const auto& endpoint) {
-        Json object{{"kind", "endpoint"},
-                    {"endpoint", endpoint.label},
-                    {"scheme", endpoint::scheme_name(endpoint.scheme)},
-                    {"rcvbuf", endpoint.rcvbuf_bytes}};
-        put(object, endpoint.counts);
-        append(text, object);
-    });
-}
-
-AppendRow gone_lines(const Snapshot& s) {
-    return each_of(s.endpoints, [](std::string& text, const auto& endpoint) {
-        Json object{{"kind", "gone"}, {"endpoint", endpoint.label}};
-        put(object, endpoint.gone);
-        append(text, object);
-    });
-}
+AppendRow endpoint_lines(const Snapshot& s) { return each_of(s.endpoints, control::append_endpoint); }
+AppendRow gone_lines(const Snapshot& s) { return each_of(s.endpoints, control::append_gone); }
+AppendRow source_lines(const Snapshot& s) { return each_of(s.links, control::append_sources); }
 
 AppendRow link_lines(const Snapshot& s) {
-    return each_of(s.links, [&s](std::string& text, const auto& link) {
-        Json object{
-            {"kind", "link"}, {"link", link.name}, {"endpoint", s.endpoint_label(link.endpoint)}, {"up", link.up}};
-        put(object, link.counts);
-        append(text, object);
-    });
-}
-
-void append_source(std::string& text, std::string_view link, const wire::SequenceStats& s) {
-    append(text, {{"kind", "source"},
-                  {"link", link},
-                  {"sys", s.source.system.value},
-                  {"comp", s.source.component.value},
-                  {"frames", s.received},
-                  {"lost", s.lost},
-                  {"late", s.late},
-                  {"repeated", s.duplicate},
-                  {"resync", s.resync},
-                  {"no_sequence", s.no_sequence}});
-}
-
-AppendRow source_lines(const Snapshot& s) {
-    return each_of(s.links, [](std::string& text, const auto& link) {
-        for (const auto& source : link.sources) append_source(text, link.name, source);
-    });
+    return each_of(s.links, [&s](std::string& text, const auto& link) { control::append_link(text, s, link); });
 }
 
 AppendRow message_lines(const Snapshot& s) {
@@ -83,49 +36,47 @@ AppendRow message_lines(const Snapshot& s) {
         const auto* message = s.dialect->find(row.id);
         const auto* link = s.link(row.link);
         if (link == nullptr) return;
-        append(text, {{"kind", "message"},
-                      {"link", link->name},
-                      {"sys", row.source.system.value},
-                      {"comp", row.source.component.value},
-                      {"id", row.id.value},
-                      {"name", message == nullptr ? Json() : Json(message->name)},
-                      {"frames", row.count},
-                      {"bytes", row.bytes},
-                      {"rate_hz", row.recent_rate_hz(s.time)}});
+        append_line(text, {{"kind", "message"},
+                           {"link", link->name},
+                           {"sys", row.source.system.value},
+                           {"comp", row.source.component.value},
+                           {"id", row.id.value},
+                           {"name", message == nullptr ? Json() : Json(message->name)},
+                           {"frames", row.count},
+                           {"bytes", row.bytes},
+                           {"rate_hz", row.recent_rate_hz(s.time)}});
     });
 }
 
 AppendRow recording_lines(const Snapshot& s) {
     return each_of(s.recordings, [](std::string& text, const auto& recording) {
-        Json object{{"kind", "recording"}, {"endpoint", recording.label}};
-        put(object, recording.counts);
-        append(text, object);
+        append_line(text, {{"kind", "recording"}, {"endpoint", recording.label}}, recording.counts);
     });
 }
 
 AppendRow unknown_target_lines(const Snapshot& s) {
     return each_of(s.unknown_targets, [](std::string& text, const auto& unknown) {
-        append(text, {{"kind", "unknown_target"},
-                      {"sys", unknown.target.system.value},
-                      {"comp", unknown.target.component.value},
-                      {"frames", unknown.frames}});
+        append_line(text, {{"kind", "unknown_target"},
+                           {"sys", unknown.target.system.value},
+                           {"comp", unknown.target.component.value},
+                           {"frames", unknown.frames}});
     });
 }
 
 AppendRow route_lines(const Snapshot& s) {
     return each_of(s.routes, [&s](std::string& text, const route::RouteInfo& route) {
         const auto* link = s.link(route.link);
-        append(text, {{"kind", "route"},
-                      {"sys", route.source.system.value},
-                      {"comp", route.source.component.value},
-                      {"link", link == nullptr ? std::string_view{} : std::string_view(link->name)},
-                      {"age_s", seconds(route.age)},
-                      {"frames", route.frames}});
+        append_line(text, {{"kind", "route"},
+                           {"sys", route.source.system.value},
+                           {"comp", route.source.component.value},
+                           {"link", link == nullptr ? std::string_view{} : std::string_view(link->name)},
+                           {"age_s", seconds(route.age)},
+                           {"frames", route.frames}});
     });
 }
 
 AppendRow end_line() {
-    return once([](std::string& text) { append(text, {{"ok", true}}); });
+    return once([](std::string& text) { append_line(text, {{"ok", true}}); });
 }
 
 Report report_of(Router& router, const Shared& s, std::vector<AppendRow> lists) {

@@ -3,46 +3,41 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <nlohmann/json.hpp>
 
+#include "control/json_request.hpp"
 #include "mavloom/router/report.hpp"
-#include "router/report/json_line.hpp"
 
 namespace mavloom::router {
 
 namespace {
 
-constexpr std::array commands{"links", "routes", "stats", "add", "remove"};
-
-Report one_line(const Json& object) {
-    return control::report_of([line = line_of(object)] { return line + '\n'; });
-}
-
-Report failed(std::string_view why) { return one_line({{"ok", false}, {"error", why}}); }
-
-Report done() { return one_line({{"ok", true}}); }
-
 Report add(Router& router, const std::string& url) {
     const auto endpoint = parse_router_endpoint(url);
-    if (!endpoint) return failed(endpoint.error().text);
-    if (const auto added = router.add(*endpoint); !added) return failed(added.error().text);
+    if (!endpoint) return control::failed(endpoint.error().text);
+    if (const auto added = router.add(*endpoint); !added) return control::failed(added.error().text);
     router.notify(config::LogLevel::info, endpoint->label() + ": added by ctl");
-    return done();
+    return control::succeeded();
 }
 
 // Removes an endpoint, a recording or a link by its name.
 Report remove(Router& router, const std::string& name) {
     if (!router.remove(name))
-        return failed(fmt::format(
+        return control::failed(fmt::format(
             "there is no endpoint {}, and no link of that name that could be closed; `links` lists them", name));
     router.notify(config::LogLevel::info, name + ": removed by ctl");
-    return done();
+    return control::succeeded();
 }
 
-std::string text_at(const Json& request, const char* key) {
-    const auto at = request.find(key);
-    return at != request.end() && at->is_string() ? at->get<std::string>() : std::string();
-}
+using Command = control::Command<Router>;
+
+constexpr std::array commands{
+    Command{"links", [](Router& r, const control::Json&) { return report_links(r); }},
+    Command{"routes", [](Router& r, const control::Json&) { return report_routes(r); }},
+    Command{"stats", [](Router& r, const control::Json&) { return report_stats(r); }},
+    Command{"add", [](Router& r, const control::Json& request) { return add(r, control::text_at(request, "url")); }},
+    Command{"remove",
+            [](Router& r, const control::Json& request) { return remove(r, control::text_at(request, "name")); }},
+};
 
 }  // namespace
 
@@ -59,15 +54,8 @@ SetupResult<endpoint::Endpoint> parse_router_endpoint(std::string_view text) {
 }
 
 Report answer_request(Router& router, std::string_view request) {
-    const auto parsed = Json::parse(request, nullptr, false);
-    if (!parsed.is_object()) return failed("a request is one JSON object per line, as in {\"cmd\":\"links\"}");
-    const auto command = text_at(parsed, "cmd");
-    if (command == "links") return report_links(router);
-    if (command == "routes") return report_routes(router);
-    if (command == "stats") return report_stats(router);
-    if (command == "add") return add(router, text_at(parsed, "url"));
-    if (command == "remove") return remove(router, text_at(parsed, "name"));
-    return failed(fmt::format("there is no command '{}'; there are {}", command, fmt::join(commands, ", ")));
+    return control::answer_request(router, request, commands,
+                                   [](std::string_view name) { return fmt::format("there is no command '{}'", name); });
 }
 
 Report Router::answer(std::string_view request) { return answer_request(*this, request); }

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "control/json_lines.hpp"
+
+namespace mavloom::control {
+
+void append_line(std::string& text, Json object, std::span<const link::NamedCount> counts) {
+    for (const auto& count : counts) object[std::string(count.name)] = count.value;
+    text.append(object.dump(-1, ' ', false, Json::error_handler_t::replace)).push_back('\n');
+}
+
+void append_endpoint(std::string& text, const link::Snapshot::OfEndpoint& endpoint) {
+    append_line(text,
+                {{"kind", "endpoint"},
+                 {"endpoint", endpoint.label},
+                 {"scheme", endpoint::scheme_name(endpoint.scheme)},
+                 {"rcvbuf", endpoint.rcvbuf_bytes}},
+                endpoint.counts);
+}
+
+void append_gone(std::string& text, const link::Snapshot::OfEndpoint& endpoint) {
+    append_line(text, {{"kind", "gone"}, {"endpoint", endpoint.label}}, endpoint.gone);
+}
+
+void append_link(std::string& text, const link::Snapshot& snapshot, const link::Snapshot::OfLink& link) {
+    append_line(
+        text,
+        {{"kind", "link"}, {"link", link.name}, {"endpoint", snapshot.endpoint_label(link.endpoint)}, {"up", link.up}},
+        link.counts);
+}
+
+void append_sources(std::string& text, const link::Snapshot::OfLink& link) {
+    for (const auto& s : link.sources)
+        append_line(text, {{"kind", "source"},
+                           {"link", link.name},
+                           {"sys", s.source.system.value},
+                           {"comp", s.source.component.value},
+                           {"frames", s.received},
+                           {"lost", s.lost},
+                           {"late", s.late},
+                           {"repeated", s.duplicate},
+                           {"resync", s.resync},
+                           {"no_sequence", s.no_sequence}});
+}
+
+}  // namespace mavloom::control
