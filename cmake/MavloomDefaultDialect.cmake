@@ -3,13 +3,14 @@
 #   mavloom::dialectgen       the generator, a program
 #   mavloom::dialect_builtin  the tables behind default_dialect()
 #   mavloom::messages         the headers mavloom/msg/*.hpp
-# `mavloom::dialect` (mavloom_module) is the first and the third together.
+# `mavloom::dialect` (mavloom_module) links the first and the third.
 include(MavloomDialect)
 
 file(GLOB core_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/dialect/core/*.cpp")
 add_library(mavloom_dialect_core ${core_sources})
 add_library(mavloom::dialect_core ALIAS mavloom_dialect_core)
 set_target_properties(mavloom_dialect_core PROPERTIES EXPORT_NAME dialect_core POSITION_INDEPENDENT_CODE ON)
+target_compile_options(mavloom_dialect_core PRIVATE ${mavloom_unoptimised_debug})
 target_link_libraries(mavloom_dialect_core PUBLIC mavloom::wire PRIVATE pugixml::pugixml
                       $<BUILD_INTERFACE:mavloom_warnings>)
 

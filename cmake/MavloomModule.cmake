@@ -13,9 +13,10 @@ function(mavloom_precompile target owner)
   endif()
 endfunction()
 
-# For code that runs once or beside the work. Higher optimisation would add half to its compile time and speed up
-# nothing that counts.
-set(mavloom_cold_flags $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-O1>)
+# For code that runs once or beside the work. Higher optimisation would speed up nothing that counts. It would add half
+# to the compile time, with a sanitizer twice as much again.
+set(mavloom_unoptimised_debug $<$<CONFIG:Debug>:-O0>)
+set(mavloom_cold_flags $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-O1> ${mavloom_unoptimised_debug})
 
 # -Wrestrict: GCC 12 is wrong about std::string (GCC bug 105329). In a unity build, GCC takes anonymous namespaces for
 # those of a header, and finds more names shadowed than Clang does.
@@ -29,15 +30,19 @@ target_compile_options(mavloom_warnings INTERFACE -Wall -Wextra -Wpedantic -Wcon
                        $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual>
                        $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<BOOL:${MAVLOOM_WERROR}>:-Werror>)
 
-# mavloom_module(<name> [DEPENDS <module>...] [LINK <target>...] [PRIVATE_LINK <target>...] [COLD <source>...])
+# mavloom_module(<name> [DEPENDS <module>...] [LINK <target>...] [PRIVATE_LINK <target>...] [COLD <source>...]
+#                [NO_SOURCES])
 #
 # One library per module: `mavloom_<name>`, alias `mavloom::<name>`, from src/<name>/*.cpp and include/mavloom/<name>/.
 # A module without sources is an interface library. COLD: sources (names without .cpp) to compile with
-# mavloom_cold_flags.
+# mavloom_cold_flags. NO_SOURCES: the sources belong to other targets, which the caller links.
 function(mavloom_module name)
-  cmake_parse_arguments(arg "" "" "DEPENDS;LINK;PRIVATE_LINK;COLD" ${ARGN})
+  cmake_parse_arguments(arg "NO_SOURCES" "" "DEPENDS;LINK;PRIVATE_LINK;COLD" ${ARGN})
   set(target mavloom_${name})
-  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${name}/*.cpp")
+  set(sources "")
+  if(NOT arg_NO_SOURCES)
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${name}/*.cpp")
+  endif()
   set(scope PUBLIC)
   if(NOT sources)
     set(scope INTERFACE)

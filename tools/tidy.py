@@ -63,7 +63,7 @@ def compiler(entry: dict[str, str]) -> list[str]:
 
 def check_headers(build: pathlib.Path) -> bool:
     """A source of the header's module has the options. Generated headers of messages all come from one template."""
-    module_in = re.compile(r"/mavloom_([a-z]+)(_cold)?\.dir/")
+    module_in = re.compile(r"/mavloom_([a-z]+)(_cold|_core)?\.dir/")
     options = {found[1]: compiler(entry) for entry in compile_commands(build)
                if (found := module_in.search(entry["command"]))}
     commands = []
