@@ -45,9 +45,9 @@ private:
         if (&dialect == dialect_) [[likely]]
             return;
         dialect_ = &dialect;
-        const MessageClasses::Rule rule = dialect.classes.of(frame_.id());
+        const QueueRules::Rule rule = dialect.queue_rules.of(frame_.id());
         block_class_ = rule.block_class;
-        key_ = MessageClasses::key(frame_, rule);
+        key_ = QueueRules::key(frame_, rule);
     }
 
     wire::FrameView frame_;
