@@ -19,6 +19,7 @@
 #include "link/core/outlets.hpp"
 #include "link/core/tickers.hpp"
 #include "link/open_endpoint.hpp"
+#include "link/signing/signing_ids.hpp"
 #include "mavloom/net/event_loop.hpp"
 #include "mavloom/net/udp.hpp"
 #include "mavloom/wire/parse_event.hpp"

@@ -26,7 +26,7 @@ public:
           NameUser(opening.core.look_ups),
           core_(opening.core),
           local_(local),
-          peer_(core_, *this, opening.id, queue_limits(opening.endpoint.options)),
+          peer_(core_, *this, opening.id, opening.endpoint.options),
           retry_(core_, *this, *this) {
         peer_.name = opening.endpoint.label();
         peer_.signature = signature.get();

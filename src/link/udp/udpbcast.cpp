@@ -21,8 +21,8 @@ public:
           core_(opening.core),
           local_(local),
           port_(opening.core, *this, counters, opening.endpoint.options.mtu_bytes),
-          everybody_(opening.id, queue_limits(opening.endpoint.options), opening.core.dialects.of(opening.id).table,
-                     port_, net::Address{}),
+          everybody_(opening.id, opening.endpoint.options, opening.core.dialects.of(opening.id).table, port_,
+                     net::Address{}),
           peers_(opening.core, *this, *this),
           retry_(opening.core, *this, *this) {
         everybody_.name = opening.endpoint.label();

@@ -95,8 +95,8 @@ SetupResult<void> UdpOut::open_port(const net::Address& address) {
 SetupResult<void> UdpOut::aim_at(const net::Address& address) {
     if (auto done = open_port(address); !done) return done;
     if (!peer_) {
-        peer_ = std::make_unique<UdpPeer>(info.id, queue_limits(info.endpoint.options),
-                                          core_.dialects.of(info.id).table, *port_, address);
+        peer_ = std::make_unique<UdpPeer>(info.id, info.endpoint.options, core_.dialects.of(info.id).table, *port_,
+                                          address);
         peer_->name = info.endpoint.label();
         peer_->signature = signature.get();
         core_.add_link(*peer_);
