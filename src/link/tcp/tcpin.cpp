@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "link/admission.hpp"
-#include "link/listening.hpp"
 #include "link/peer_list.hpp"
+#include "link/resolve_and_open.hpp"
 #include "link/retry.hpp"
 #include "link/tcp/crowds.hpp"
 #include "link/tcp/tcp.hpp"
