@@ -346,38 +346,30 @@ Exit route(const Common& common, const RouteOptions& options) {
 
 Run declare_route(Arguments command, const Common& common) {
     auto options = std::make_shared<RouteOptions>();
-    command.add_option("endpoint", options->endpoints, "an endpoint to route between; give any number of them")
-        .type_name("ENDPOINT");
+    command.add_option("endpoint", "ENDPOINT", options->endpoints,
+                       "an endpoint to route between; give any number of them");
+    command.add_option("--config", "FILE", options->config,
+                       "a configuration file (docs/guide/configuration.md); SIGHUP rereads it");
     command
-        .add_option("--config", options->config, "a configuration file (docs/guide/configuration.md); SIGHUP rereads it")
-        .type_name("FILE");
-    command
-        .add_option("--explain", options->explain,
+        .add_option("--explain", "[MESSAGE]", options->explain,
                     "print where each frame went and why; with MESSAGE, only for frames of that message")
         .expected(0, 1)
-        .default_str("*")
-        .type_name("[MESSAGE]");
-    command
-        .add_option(
-            "--ring", options->ring,
-            "write every good frame into the ring /dev/shm/mavloom.NAME for programs on this machine, and forward "
-            "the frames that they send")
-        .type_name("NAME");
-    command
-        .add_option("--name", options->name,
-                    "the router's name for `mavloom ctl` and `stat`: A-Z a-z 0-9 _ - (default: the name of the ring, "
-                    "or router)")
-        .type_name("NAME");
-    command.add_option("--metrics", options->metrics, "serve Prometheus metrics at http://HOST:PORT/metrics")
-        .type_name("HOST:PORT");
+        .default_str("*");
+    command.add_option("--ring", "NAME", options->ring,
+                       "write every good frame into the ring /dev/shm/mavloom.NAME for programs on this machine, and "
+                       "forward the frames that they send");
+    command.add_option("--name", "NAME", options->name,
+                       "the router's name for `mavloom ctl` and `stat`: A-Z a-z 0-9 _ - (default: the name of the "
+                       "ring, or router)");
+    command.add_option("--metrics", "HOST:PORT", options->metrics,
+                       "serve Prometheus metrics at http://HOST:PORT/metrics");
     command.add_flag("--metrics-detail", options->has_metrics_detail,
                      "let the metrics distinguish the components of each system, and list more messages");
-    command.add_option("--for", options->duration, "end after this time: 10s, 2m").type_name("TIME");
+    command.add_option("--for", "TIME", options->duration, "end after this time: 10s, 2m");
     command.footer(
         "Forwards every frame byte for byte: broadcasts to all other links, targeted frames to the links where their "
         "target was heard.\nEach peer of udpin:// and each client of tcpin:// is its own link. tlog://PATH records "
-        "every "
-        "frame that arrives.\n\nExamples:\n"
+        "every frame that arrives.\n\nExamples:\n"
         "  mavloom route --config examples/px4-qgc.toml\n"
         "  mavloom route udpin://0.0.0.0:14540 udpout://192.168.1.20:14550\n"
         "  mavloom route serial:///dev/ttyACM0?baud=921600 tcpin://0.0.0.0:5760 tlog://flight.tlog\n"

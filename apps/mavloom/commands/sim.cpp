@@ -239,23 +239,19 @@ Exit simulate(const Common& common, const SimOptions& options) {
 
 Run declare_sim(Arguments command, const Common& common) {
     auto options = std::make_shared<SimOptions>();
+    command.add_option("scenario", "SCENARIO.toml", options->file,
+                       "vehicles and endpoints, from a file (docs/guide/sim.md); `mavloom check` validates it");
     command
-        .add_option("scenario", options->file,
-                    "vehicles and endpoints, from a file (docs/guide/sim.md); `mavloom check` validates it")
-        .type_name("SCENARIO.toml");
-    command
-        .add_option("--to", options->to,
+        .add_option("--to", "ENDPOINT", options->to,
                     "send to udpout://, tcpout://, serial://, udpbcast://, udpmcast://, or shm://NAME, the inlet of a "
                     "router's ring; may be repeated (default: udpout://127.0.0.1:14550)")
-        .type_name("ENDPOINT")
         .one_value_each();
-    command.add_option("--listen", options->listen, "wait for clients at udpin:// or tcpin://; may be repeated")
-        .type_name("ENDPOINT")
+    command
+        .add_option("--listen", "ENDPOINT", options->listen, "wait for clients at udpin:// or tcpin://; may be repeated")
         .one_value_each();
     for (std::size_t i = 0; i < std::size(key_options); ++i) {
         const KeyOption& option = key_options[i];
-        if (option.type != nullptr)
-            command.add_option(option.name, options->texts[i], option.description).type_name(option.type);
+        if (option.type != nullptr) command.add_option(option.name, option.type, options->texts[i], option.description);
         else
             command.add_flag(option.name, option.key == "gimbal" ? options->gimbal : options->report,
                              option.description);
