@@ -262,9 +262,10 @@ void declare_edits(Arguments command, RelayOptions& options) {
         "--as-v1", options.as_v1,
         "send MAVLink 1: extension fields are cut; messages with ids over 255 are dropped and counted");
     command.add_flag("--as-v2", options.as_v2, "send MAVLink 2").excludes(v1);
-    auto sign = command.add_option("--sign", "FILE", options.sign_file,
-                                   "sign sent frames with the key in this file (64 hexadecimal digits, mode 0600)");
-    sign.excludes(v1);
+    auto sign = command
+                    .add_option("--sign", "FILE", options.sign_file,
+                                "sign sent frames with the key in this file (64 hexadecimal digits, mode 0600)")
+                    .excludes(v1);
     command.add_option("--sign-link-id", "N", edit.sign_link_id, "the link id in the signatures of --sign, 0 to 255")
         .default_str(std::to_string(edit.sign_link_id))
         .range(0, 255)
