@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
-#include <filesystem>
-#include <set>
+#include <optional>
 #include <string_view>
 
 #include "command.hpp"
-#include "counted.hpp"
-#include "mavloom/base/shown.hpp"
-#include "mavloom/config/config.hpp"
-#include "mavloom/control/control.hpp"
+#include "explain.hpp"
 #include "mavloom/control/service_manager.hpp"
-#include "mavloom/router/report.hpp"
 #include "mavloom/router/router.hpp"
-#include "output.hpp"
+#include "open_control.hpp"
+#include "plan.hpp"
 #include "signals.hpp"
 
 namespace mavloom::app {
@@ -26,84 +20,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto send_limit = 2s;  // to send what is still queued
-constexpr auto output_retry = 100ms;
-
-struct RouteOptions {
-    std::vector<std::string> endpoints;
-    std::string config;
-    std::string duration;
-    std::string explain;  // a message's name or id; "*": all
-    std::string ring;     // overrides the ring of the file
-    std::string name;     // empty: the ring's name, else "router"
-    std::string metrics;  // HOST:PORT
-    bool has_metrics_detail = false;
-};
-
-// The endpoints to route between: first those of the configuration file, then those of the command line. A reload
-// changes only those of the file.
-struct Plan {
-    config::Config config;
-    std::vector<endpoint::Endpoint> from_command_line;
-
-    [[nodiscard]] std::vector<endpoint::Endpoint> endpoints() const {
-        auto all = config.endpoints;
-        all.insert(all.end(), from_command_line.begin(), from_command_line.end());
-        if (!config.record.path.empty()) all.push_back(recording());
-        return all;
-    }
-
-private:
-    [[nodiscard]] endpoint::Endpoint recording() const {
-        endpoint::Endpoint endpoint;
-        endpoint.scheme = endpoint::Scheme::tlog;
-        endpoint.path = config.record.path;
-        endpoint.options.rotate_bytes = config.record.rotate_bytes;
-        endpoint.options.rotate_every = config.record.rotate_every;
-        return endpoint;
-    }
-};
-
-// Reads the configuration file and applies the overrides of the command line.
-SetupResult<config::Config> read_config(const RouteOptions& options, const dialect::Dialect& dialect) {
-    const auto environment = config::environment_of(environ);
-    auto config = options.config.empty() ? config::parse_config("", "", environment)
-                                         : config::load_config(options.config, environment);
-    if (!config) return config;
-    if (!options.ring.empty()) config->ring.name = options.ring;
-    if (auto checked = config::check_for_router(*config, options.config, dialect); !checked)
-        return tl::unexpected(std::move(checked.error()));
-    return config;
-}
-
-SetupResult<void> check_recordings(std::span<const endpoint::Endpoint> endpoints) {
-    std::set<std::filesystem::path> recordings;
-    for (const auto& e : endpoints)
-        if (e.scheme == endpoint::Scheme::tlog && !recordings.insert(endpoint::canonical_path(e.path)).second)
-            return setup_error(SetupCode::usage,
-                               fmt::format("another recording already writes to {}", in_quotes(e.path)));
-    return {};
-}
-
-SetupResult<Plan> make_plan(const RouteOptions& options, const dialect::Dialect& dialect) {
-    Plan plan;
-    if (endpoint::parse_endpoint(options.explain))
-        return setup_error(
-            SetupCode::usage,
-            fmt::format("--explain takes a message's name, not '{}'; put it after the endpoints", options.explain));
-    for (const auto& text : options.endpoints) {
-        auto endpoint = router::parse_router_endpoint(text);
-        if (!endpoint) return tl::unexpected(std::move(endpoint.error()));
-        plan.from_command_line.push_back(std::move(*endpoint));
-    }
-    auto config = read_config(options, dialect);
-    if (!config) return tl::unexpected(of_input_file(std::move(config.error())));
-    plan.config = std::move(*config);
-    const auto endpoints = plan.endpoints();
-    if (endpoints.empty())
-        return setup_error(SetupCode::usage, "nothing to route between: give endpoints, or a --config with some");
-    if (auto good = check_recordings(endpoints); !good) return tl::unexpected(std::move(good.error()));
-    return plan;
-}
 
 // Adds either the recordings or all other endpoints. Recordings are added last: creating one renames an existing file,
 // which must not happen if the router cannot start because a port is in use.
@@ -112,69 +28,6 @@ SetupResult<void> add_endpoints(router::Router& router, const Plan& plan, bool r
         if ((endpoint.scheme == endpoint::Scheme::tlog) == recordings)
             if (auto added = router.add(endpoint); !added) return added;
     return {};
-}
-
-// Prints "ATTITUDE 1/1 seq 7 from udpin://…#127.0.0.1:1234: forwarded" for a frame, then a line for each link. Routing
-// never waits for the output: if the reader stalls, explanations that do not fit are left out and counted.
-class ExplainPrinter {
-public:
-    ExplainPrinter(const Common& common, const dialect::Dialect& dialect, link::Links& links,
-                   std::optional<MessageId> only)
-        : common_(common), dialect_(dialect), links_(links), only_(only) {}
-
-    void operator()(const link::RxFrame& rx, const route::Decision& decision, std::span<const route::Explanation> why) {
-        if (only_ && rx.frame.id() != *only_) return;
-        if (output_.full()) (void)output_.flush_what_fits();
-        if (output_.full()) return leave_out(1 + why.size());
-        auto out = fmt::appender(output_.buffer());
-        const auto* message = dialect_.find(rx.frame.id());
-        const auto source = rx.frame.source();
-        fmt::format_to(out, "{} {}/{} seq {} from {}: {}\n",
-                       message != nullptr ? std::string(message->name) : fmt::format("id {}", rx.frame.id().value),
-                       source.system.value, source.component.value, rx.frame.sequence(), links_.link_name(rx.link),
-                       route::verdict_name(decision.verdict));
-        for (const auto& [link, reason] : why)
-            fmt::format_to(out, "  {} {}: {}\n",
-                           reason == route::Reason::sent || reason == route::Reason::tap ? "->" : " x",
-                           links_.link_name(link), route::reason_text(reason));
-    }
-    Output::State flush() { return output_.flush_what_fits(); }
-    // When to call `flush` again if no frame arrives.
-    [[nodiscard]] MonoTime due() { return output_.buffer().size() == 0 ? MonoTime::max() : mono_now() + output_retry; }
-    // Writes the rest, as long as the reader keeps accepting data.
-    void finish() {
-        output_.end_at(mono_now());
-        while (flush() == Output::State::open && output_.buffer().size() != 0 && output_.wait_for_room()) {}
-        left_out_ += static_cast<std::uint64_t>(std::ranges::count(output_.buffer(), '\n'));
-        report_left_out();
-    }
-    void report_left_out() const {
-        if (left_out_ != 0) print_notice(common_, fmt::format("--explain left out {}", counted(left_out_, "line")));
-    }
-    [[nodiscard]] const Output& output() const noexcept { return output_; }
-
-private:
-    void leave_out(std::size_t lines) {
-        if (left_out_ == 0 && output_.state() == Output::State::open)
-            print_notice(
-                common_,
-                "the output of --explain is read too slowly; explanations are left out, and routing continues");
-        left_out_ += lines;
-    }
-
-    const Common& common_;
-    const dialect::Dialect& dialect_;
-    link::Links& links_;
-    std::optional<MessageId> only_;
-    Output output_;
-    std::uint64_t left_out_ = 0;  // lines
-};
-
-SetupResult<std::optional<MessageId>> explained_id(const dialect::Dialect& dialect, const std::string& text) {
-    if (text == "*") return std::nullopt;
-    const auto id = dialect::find_message_id(dialect, text);
-    if (!id) return tl::unexpected(SetupError(id.error()).within("--explain"));
-    return *id;
 }
 
 class Routing {
@@ -224,20 +77,8 @@ private:
 
     void reload() {
         if (options_.config.empty()) return print_notice(common_, "SIGHUP: there is no --config to reread");
-        std::error_code unknown;
-        const auto type = std::filesystem::status(options_.config, unknown).type();
-        if (type == std::filesystem::file_type::fifo || type == std::filesystem::file_type::character)
-            return write_stderr_line(
-                fmt::format("mavloom: {} is a pipe or a terminal, which can be read only once; nothing was changed",
-                            options_.config));
-        auto config = read_config(options_, dialect_);
+        auto config = reread_config(options_, dialect_, plan_);
         if (!config) return write_stderr_line(fmt::format("mavloom: {}; nothing was changed", config.error().text));
-        const bool would_be_idle = Plan{*config, plan_.from_command_line}.endpoints().empty();
-        // An editor may have truncated the file before rewriting it.
-        if (would_be_idle || (config->endpoints.empty() && !plan_.config.endpoints.empty()))
-            return write_stderr_line(fmt::format("mavloom: {} has no endpoint; nothing was changed", options_.config));
-        if (auto agreed = router::Router::group_modes_of(Plan{*config, plan_.from_command_line}.endpoints()); !agreed)
-            return write_stderr_line(fmt::format("mavloom: {}; nothing was changed", agreed.error().text));
         const bool same_rules = config->router == plan_.config.router;
         if (config->ring != plan_.config.ring)
             write_stderr_line("mavloom: a changed [ring] takes effect when the router restarts");
@@ -280,8 +121,6 @@ SetupResult<void> open_ring(const Common& common, const config::RingConfig& ring
     return {};
 }
 
-// Opens the control socket and the metrics port. Without --name, the router starts even if another router already has
-// the default name; `ctl` then reaches that other router.
 SetupResult<std::unique_ptr<control::Control>> open_control(const Common& common, const RouteOptions& options,
                                                             const std::string& ring, router::Router& router) {
     control::ControlOptions control;
@@ -294,17 +133,7 @@ SetupResult<std::unique_ptr<control::Control>> open_control(const Common& common
                 fmt::format("--metrics takes HOST:PORT, as in 127.0.0.1:9090, not '{}'", options.metrics));
         control.metrics = address->address;
     }
-    const std::string_view usual_name = ring.empty() ? "router" : std::string_view(ring);
-    auto path = control::control_path(options.name.empty() ? usual_name : options.name);
-    if (path) control.socket = *path;
-    else if (!options.name.empty()) return tl::unexpected(std::move(path.error()));
-    else print_notice(common, path.error().text);
-    auto opened = control::Control::create(router, control);
-    if (opened || !options.name.empty() || opened.error().code != SetupCode::in_use) return opened;
-    control.socket.clear();
-    auto without = control::Control::create(router, control);  // fails again if the port of --metrics was in use
-    if (without) print_notice(common, fmt::format("no control socket: {}", opened.error().text));
-    return without;
+    return open_control(common, router, std::move(control), options.name, ring.empty() ? "router" : ring);
 }
 
 Exit route(const Common& common, const RouteOptions& options) {
