@@ -6,7 +6,6 @@
 namespace mavloom::app {
 
 Option Option::required() { return Option(option_->required()); }
-Option Option::type_name(const std::string& name) { return Option(option_->type_name(name)); }
 Option Option::capture_default_str() { return Option(option_->capture_default_str()); }
 Option Option::default_str(const std::string& text) { return Option(option_->default_str(text)); }
 Option Option::expected(int fewest, int most) { return Option(option_->expected(fewest, most)); }
@@ -19,24 +18,29 @@ Option Option::members(const std::vector<std::string>& words) { return Option(op
 Option Option::excludes(Option other) { return Option(option_->excludes(other.option_)); }
 Option Option::needs(Option other) { return Option(option_->needs(other.option_)); }
 
-Option Arguments::add_option(const std::string& name, std::string& value, const std::string& description) {
-    return Option(command_->add_option(name, value, description));
+Option Arguments::add_option(const std::string& name, const std::string& type, std::string& value,
+                             const std::string& description) {
+    return Option(command_->add_option(name, value, description)->type_name(type));
 }
 
-Option Arguments::add_option(const std::string& name, std::vector<std::string>& values, const std::string& description) {
-    return Option(command_->add_option(name, values, description));
+Option Arguments::add_option(const std::string& name, const std::string& type, std::vector<std::string>& values,
+                             const std::string& description) {
+    return Option(command_->add_option(name, values, description)->type_name(type));
 }
 
-Option Arguments::add_option(const std::string& name, int& value, const std::string& description) {
-    return Option(command_->add_option(name, value, description));
+Option Arguments::add_option(const std::string& name, const std::string& type, int& value,
+                             const std::string& description) {
+    return Option(command_->add_option(name, value, description)->type_name(type));
 }
 
-Option Arguments::add_option(const std::string& name, std::size_t& value, const std::string& description) {
-    return Option(command_->add_option(name, value, description));
+Option Arguments::add_option(const std::string& name, const std::string& type, std::size_t& value,
+                             const std::string& description) {
+    return Option(command_->add_option(name, value, description)->type_name(type));
 }
 
-Option Arguments::add_option(const std::string& name, std::uint8_t& value, const std::string& description) {
-    return Option(command_->add_option(name, value, description));
+Option Arguments::add_option(const std::string& name, const std::string& type, std::uint8_t& value,
+                             const std::string& description) {
+    return Option(command_->add_option(name, value, description)->type_name(type));
 }
 
 Option Arguments::add_flag(const std::string& name, bool& value, const std::string& description) {

@@ -21,7 +21,6 @@ public:
     explicit Option(CLI::Option* option) : option_(option) {}
 
     Option required();
-    Option type_name(const std::string& name);
     Option capture_default_str();
     Option default_str(const std::string& text);
     Option expected(int fewest, int most);
@@ -41,12 +40,17 @@ class Arguments {
 public:
     explicit Arguments(CLI::App* command) : command_(command) {}
 
-    // A name without dashes is positional. The variable must live until the command has run.
-    Option add_option(const std::string& name, std::string& value, const std::string& description);
-    Option add_option(const std::string& name, std::vector<std::string>& values, const std::string& description);
-    Option add_option(const std::string& name, int& value, const std::string& description);
-    Option add_option(const std::string& name, std::size_t& value, const std::string& description);
-    Option add_option(const std::string& name, std::uint8_t& value, const std::string& description);
+    // A name without dashes is positional. `type` stands for the value in the help. The variable must live until the
+    // command has run.
+    Option add_option(const std::string& name, const std::string& type, std::string& value,
+                      const std::string& description);
+    Option add_option(const std::string& name, const std::string& type, std::vector<std::string>& values,
+                      const std::string& description);
+    Option add_option(const std::string& name, const std::string& type, int& value, const std::string& description);
+    Option add_option(const std::string& name, const std::string& type, std::size_t& value,
+                      const std::string& description);
+    Option add_option(const std::string& name, const std::string& type, std::uint8_t& value,
+                      const std::string& description);
     Option add_flag(const std::string& name, bool& value, const std::string& description);
 
     Arguments add_subcommand(const std::string& name, const std::string& description);

@@ -25,10 +25,8 @@ std::optional<T> whole_number(std::string_view text, std::uint32_t largest) {
 }  // namespace
 
 void Selection::declare(Arguments command) {
-    command.add_option("--only", only, "only these messages: names or ids, separated by commas")
-        .delimiter(',')
-        .type_name("NAMES");
-    command.add_option("--from", from, "only from this system, or from this component of it").type_name("SYS[/COMP]");
+    command.add_option("--only", "NAMES", only, "only these messages: names or ids, separated by commas").delimiter(',');
+    command.add_option("--from", "SYS[/COMP]", from, "only from this system, or from this component of it");
 }
 
 SetupResult<void> Selection::resolve(const dialect::Dialect& dialect) {
@@ -58,20 +56,17 @@ bool Selection::takes(const wire::FrameView& frame) const noexcept {
 
 void ReceiveOptions::declare(Arguments command) {
     command
-        .add_option("source", sources,
+        .add_option("source", "SOURCE", sources,
                     "where to receive: udpin://0.0.0.0:14550, tcpout://HOST:PORT, shm://NAME, flight.tlog, ... "
                     "(docs/guide/endpoints.md)")
-        .required()
-        .type_name("SOURCE");
-    command.add_option("--for", duration, "end after this time: 10s, 2m, 500ms").type_name("TIME");
-    command.add_option("--count", count_text, "end after this many messages").type_name("N");
+        .required();
+    command.add_option("--for", "TIME", duration, "end after this time: 10s, 2m, 500ms");
+    command.add_option("--count", "N", count_text, "end after this many messages");
     command
-        .add_option("--buffer", buffer,
+        .add_option("--buffer", "BYTES", buffer,
                     "memory for received frames that are not handled yet (bytes, k, M); when it is full, frames are "
-                    "dropped and "
-                    "counted")
-        .capture_default_str()
-        .type_name("BYTES");
+                    "dropped and counted")
+        .capture_default_str();
 }
 
 void log_ports(const Common& common, const std::vector<link::EndpointInfo>& endpoints) {

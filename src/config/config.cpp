@@ -9,7 +9,6 @@
 
 #include "config/keys.hpp"
 #include "config/places.hpp"
-#include "mavloom/base/shown.hpp"
 #include "mavloom/config/document.hpp"
 
 namespace mavloom::config {
@@ -99,17 +98,12 @@ private:
     }
 
     SetupResult<void> read(const Table& table) {
-        auto placed = read_endpoint(document_, table);
+        auto placed = read_endpoint(document_, table, config_.sections);
         if (!placed) return tl::unexpected(std::move(placed.error()));
         auto& [endpoint, section] = *placed;
         if (endpoint.options.heartbeat.value_or(false) && !config_.router.heartbeat)
             return document_.error(std::ranges::find(section.settings, "heartbeat", &Setting::key)->line,
                                    heartbeat_needs_id);
-        for (const Section& other : config_.sections)
-            if (other.name == section.name && other.label == section.label)
-                return document_.error(
-                    table.line, fmt::format("two endpoints are named {}; give one of them another name = \"...\"",
-                                            in_quotes(section.label)));
         config_.sections.push_back(std::move(section));
         config_.endpoints.push_back(std::move(endpoint));
         return {};

@@ -157,8 +157,16 @@ private:
 
 }  // namespace
 
-SetupResult<PlacedEndpoint> read_endpoint(const Document& document, const Table& table) {
-    return Reader(document, table).read();
+SetupResult<PlacedEndpoint> read_endpoint(const Document& document, const Table& table,
+                                          std::span<const Section> earlier) {
+    auto placed = Reader(document, table).read();
+    if (!placed) return placed;
+    const Section& own = placed->section;
+    if (std::ranges::any_of(earlier, [&](const Section& s) { return s.name == own.name && s.label == own.label; }))
+        return document.error(
+            table.line,
+            fmt::format("two endpoints are named {}; give one of them another name = \"...\"", in_quotes(own.label)));
+    return placed;
 }
 
 }  // namespace mavloom::config

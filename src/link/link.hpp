@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "mavloom/endpoint/endpoint.hpp"
 #include "mavloom/link/links.hpp"
 #include "mavloom/net/lane_queue.hpp"
 #include "mavloom/wire/sequence.hpp"
@@ -15,8 +16,15 @@ namespace mavloom::link::detail {
 class Signature;
 struct LinkDialect;
 
+[[nodiscard]] inline net::BlockQueue::Limits queue_limits(const endpoint::EndpointOptions& options) {
+    net::BlockQueue::Limits limits;
+    limits.max_bytes = static_cast<std::size_t>(options.queue_bytes);
+    if (options.queue_age) limits.max_age.fill(*options.queue_age);
+    return limits;
+}
+
 struct Link {
-    Link(EndpointId owner, const net::BlockQueue::Limits& limits) : endpoint(owner), queue(limits) {}
+    Link(EndpointId owner, const endpoint::EndpointOptions& options) : endpoint(owner), queue(queue_limits(options)) {}
     Link(const Link&) = delete;
     Link& operator=(const Link&) = delete;
     virtual ~Link() = default;

@@ -60,8 +60,8 @@ public:
     MonoTime last_heard{};
 
 protected:
-    StreamPeer(Core& core, EndpointId endpoint_id, const net::BlockQueue::Limits& limits)
-        : Link(endpoint_id, limits), core_(core), parser_(core.dialects.of(endpoint_id).table) {}
+    StreamPeer(Core& core, EndpointId endpoint_id, const endpoint::EndpointOptions& options)
+        : Link(endpoint_id, options), core_(core), parser_(core.dialects.of(endpoint_id).table) {}
 
     // Called when the stream has ended, or reading or writing has failed permanently.
     virtual void on_end(net::IoError error) = 0;

@@ -12,7 +12,6 @@
 #include "mavloom/msg/mission_current.hpp"
 #include "sim/payload/gimbal.hpp"
 #include "sim/service/calibration.hpp"
-#include "sim/service/connection.hpp"
 #include "sim/service/events.hpp"
 #include "sim/service/guard.hpp"
 #include "sim/service/other_services.hpp"
@@ -20,7 +19,6 @@
 #include "sim/store/log_service.hpp"
 #include "sim/store/parameter_service.hpp"
 #include "sim/store/plan_service.hpp"
-#include "sim/telemetry/data_streams.hpp"
 
 namespace mavloom::sim {
 
@@ -47,8 +45,6 @@ Parts::Parts(const VehicleOptions& given, Sink& sink, Moment moment)
       other_services(make_other_services(*this)),
       created_(moment) {
     parameters.put(firmware.system_parameter(), options.system.value);
-    other_services.push_back(std::make_unique<Connection>(*this));
-    other_services.push_back(std::make_unique<DataStreams>(*this));
     if (gimbal) add(*gimbal);
     add(commands);
     add(*guard);

@@ -240,15 +240,10 @@ private:
             own.push_back(std::move(*setting));
         }
         std::erase_if(shared.entries, [](const Entry& e) { return e.key == profile_key || e.key == streams_key; });
-        auto placed = config::read_endpoint(document_, shared);
+        auto placed = config::read_endpoint(document_, shared, scenario_.sections);
         if (!placed) return tl::unexpected(std::move(placed.error()));
         auto& section = placed->section;
         section.line = table.line;
-        for (const config::Section& other : scenario_.sections)
-            if (other.name == section.name && other.label == section.label)
-                return document_.error(
-                    table.line, fmt::format("two endpoints are named {}; give one of them another name = \"...\"",
-                                            in_quotes(section.label)));
         section.settings.insert(section.settings.end(), own.begin(), own.end());
         given.endpoint = std::move(placed->endpoint);
         scenario_.endpoints.push_back(std::move(given));

@@ -260,21 +260,15 @@ Exit bench_shm(const RingOptions& options) {
 
 Arguments declare_shm(Arguments command, RingOptions& options) {
     auto sub = command.add_subcommand("shm", "pass records through a ring to other threads: records per second");
-    sub.add_option("--readers", options.readers, "number of lossless readers, each in its own thread; 1 to 64")
+    sub.add_option("--readers", "N", options.readers, "number of lossless readers, each in its own thread; 1 to 64")
         .capture_default_str()
-        .type_name("N")
         .range(1, 64);
-    sub.add_option("--bytes", options.bytes, "size of a record, 8 to 65536")
+    sub.add_option("--bytes", "N", options.bytes, "size of a record, 8 to 65536").capture_default_str().range(8, 65536);
+    sub.add_option("--records", "N", options.records, "number of records in each measurement")
         .capture_default_str()
-        .type_name("N")
-        .range(8, 65536);
-    sub.add_option("--records", options.records, "number of records in each measurement")
-        .capture_default_str()
-        .type_name("N")
         .range(1, 1 << 30);
-    sub.add_option("--turns", options.turns, "number of measurements, 1 to 10000; the result is their median")
+    sub.add_option("--turns", "N", options.turns, "number of measurements, 1 to 10000; the result is their median")
         .capture_default_str()
-        .type_name("N")
         .range(1, 10'000);
     sub.add_flag("--json", options.json, "print one JSON object");
     sub.fallthrough();
@@ -284,14 +278,12 @@ Arguments declare_shm(Arguments command, RingOptions& options) {
 
 Arguments declare_one(Arguments command, BenchOptions& options, const char* name, const char* description) {
     auto sub = command.add_subcommand(name, description);
-    sub.add_option("file", options.file, "a recording").required().type_name("FILE.tlog");
-    sub.add_option("--turns", options.turns, "number of measurements, 1 to 10000; the result is their median")
+    sub.add_option("file", "FILE.tlog", options.file, "a recording").required();
+    sub.add_option("--turns", "N", options.turns, "number of measurements, 1 to 10000; the result is their median")
         .capture_default_str()
-        .type_name("N")
         .range(1, 10'000);
-    sub.add_option("--chunk", options.chunk_text, "bytes passed to the parser at once: 4096, 64k; up to 1G")
-        .capture_default_str()
-        .type_name("BYTES");
+    sub.add_option("--chunk", "BYTES", options.chunk_text, "bytes passed to the parser at once: 4096, 64k; up to 1G")
+        .capture_default_str();
     sub.add_flag("--json", options.json, "print one JSON object per line");
     sub.fallthrough();
     sub.footer(fmt::format("Example:\n  mavloom bench {} flight.tlog --turns 5 --json", name));

@@ -195,29 +195,23 @@ Exit run_sim_bench(const SimBenchOptions& options) {
 
 Arguments declare_sim_bench(Arguments command, SimBenchOptions& options) {
     auto sub = command.add_subcommand("sim", "step simulated vehicles that send into a counter: CPU of one vehicle");
-    sub.add_option("--vehicles", options.vehicles, "number of vehicles, 1 to 10000")
+    sub.add_option("--vehicles", "N", options.vehicles, "number of vehicles, 1 to 10000")
         .capture_default_str()
-        .type_name("N")
         .range(1, 10'000);
-    sub.add_option("--seconds", options.seconds, "simulated seconds of each measurement, 1 to 100000")
+    sub.add_option("--seconds", "N", options.seconds, "simulated seconds of each measurement, 1 to 100000")
         .capture_default_str()
-        .type_name("N")
         .range(1, 100'000);
-    sub.add_option("--turns", options.turns, "number of measurements, 1 to 1000; the result is their median")
+    sub.add_option("--turns", "N", options.turns, "number of measurements, 1 to 1000; the result is their median")
         .capture_default_str()
-        .type_name("N")
         .range(1, 1000);
-    sub.add_option("--profile", options.profile, "which messages they send, as in `mavloom sim`")
+    sub.add_option("--profile", "NAME", options.profile, "which messages they send, as in `mavloom sim`")
         .capture_default_str()
-        .type_name("NAME")
         .members(words(sim::profile_names));
-    sub.add_option("--vehicle", options.kind, "quad, plane or rover")
+    sub.add_option("--vehicle", "KIND", options.kind, "quad, plane or rover")
         .capture_default_str()
-        .type_name("KIND")
         .members(words(sim::kind_names));
-    sub.add_option("--autopilot", options.autopilot, "px4 or ardupilot")
+    sub.add_option("--autopilot", "NAME", options.autopilot, "px4 or ardupilot")
         .capture_default_str()
-        .type_name("NAME")
         .members(words(sim::autopilot_names));
     sub.add_flag("--fly", options.flies, "they take off first; otherwise they stand on the ground");
     sub.add_flag("--json", options.json, "print one JSON object");

@@ -115,9 +115,8 @@ Exit convert(const CheckOptions& options) {
 
 Run declare_check(Arguments command, const Common& common) {
     auto options = std::make_shared<CheckOptions>();
-    command.add_option("file", options->file, "a router's configuration, or a simulator's scenario (TOML)")
-        .required()
-        .type_name("FILE");
+    command.add_option("file", "FILE", options->file, "a router's configuration, or a simulator's scenario (TOML)")
+        .required();
     auto json = command.add_flag("--json", options->json, "print one JSON object per line, one for each value");
     command
         .add_flag("--convert", options->convert,

@@ -286,18 +286,16 @@ Exit stat(const StatOptions& options) {
 
 Run declare_ctl(Arguments command, const Common&) {
     auto options = std::make_shared<CtlOptions>();
-    command.add_option("name", options->name, "the --name of a router or simulator; by default router, or sim")
-        .required()
-        .type_name("NAME");
+    command.add_option("name", "NAME", options->name, "the --name of a router or simulator; by default router, or sim")
+        .required();
     command
-        .add_option("action", options->action,
+        .add_option("action", "ACTION", options->action,
                     "links, stats, add URL, remove NAME; of a router: routes; of a simulator: streams, state, arm, "
                     "disarm, takeoff ALTITUDE, mode NAME, param NAME [VALUE]")
         .required()
-        .members(action_names())
-        .type_name("ACTION");
-    command.add_option("argument", options->arguments, "what the action takes").type_name("ARGUMENT").expected(0, 2);
-    command.add_option("--system", options->system, "the vehicle with this system id (default: all)").type_name("N");
+        .members(action_names());
+    command.add_option("argument", "ARGUMENT", options->arguments, "what the action takes").expected(0, 2);
+    command.add_option("--system", "N", options->system, "the vehicle with this system id (default: all)");
     command.add_flag("--force", options->force, "arm or disarm even if the vehicle's own checks fail");
     command.footer(
         "Answers are JSON, one object per line (docs/guide/route.md, docs/guide/sim.md). If a vehicle refuses, the "
@@ -313,9 +311,8 @@ Run declare_ctl(Arguments command, const Common&) {
 
 Run declare_stat(Arguments command, const Common&) {
     auto options = std::make_shared<StatOptions>();
-    command.add_option("name", options->name, "the --ring of a router or simulator, or its --name")
-        .capture_default_str()
-        .type_name("NAME");
+    command.add_option("name", "NAME", options->name, "the --ring of a router or simulator, or its --name")
+        .capture_default_str();
     command.add_flag("--json", options->json, "print one JSON object per line");
     command.footer(
         "Reads the counter page of a router's --ring or of a simulator, without involving its process. If a\n"

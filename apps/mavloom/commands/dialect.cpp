@@ -152,10 +152,10 @@ Run declare_dialect(Arguments command, const Common& common) {
         "show", "show a message (by name or id), an enum, or an enum entry; a command is shown with its parameters",
         "Examples: mavloom dialect show ATTITUDE\n"
         "          mavloom dialect show MAV_CMD_NAV_WAYPOINT --json");
-    show.add_option("NAME", options->name, "ATTITUDE, 30, MAV_TYPE, MAV_CMD_NAV_WAYPOINT").required();
+    show.add_option("NAME", "TEXT", options->name, "ATTITUDE, 30, MAV_TYPE, MAV_CMD_NAV_WAYPOINT").required();
     auto check = part("check", "check an XML file and its includes; exit status 3 if there is an error",
                       "Example: mavloom dialect check mine.xml");
-    check.add_option("FILE", options->file, "message definitions in MAVLink's XML").required();
+    check.add_option("FILE", "TEXT", options->file, "message definitions in MAVLink's XML").required();
     return [&common, options, list, show, check] {
         if (list.parsed()) return run_list(common, *options);
         if (show.parsed()) return run_show(common, *options);

@@ -164,9 +164,8 @@ Run declare_listen(Arguments command, const Common& common) {
     options->selection.declare(command);
     auto json = command.add_flag("--json", options->json, "print one JSON object per line (docs/guide/listen.md)");
     command
-        .add_option("--csv", options->csv,
+        .add_option("--csv", "MESSAGE", options->csv,
                     "print only this message (name or id), as CSV: a header, then one row per message")
-        .type_name("MESSAGE")
         .excludes(json);
     command.add_flag("--stats", options->stats,
                      "at the end, print a table of rates, gaps, bytes and loss by source and message");

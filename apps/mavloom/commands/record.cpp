@@ -153,12 +153,10 @@ Run declare_record(Arguments command, const Common& common) {
     options->receive.declare(command);
     options->selection.declare(command);
     command
-        .add_option("-o,--output", options->file,
+        .add_option("-o,--output", "FILE", options->file,
                     "the file to write; an existing file is first renamed to FILE.1. FILE.tlog?rotate_bytes=100M or "
-                    "?rotate_every=1h "
-                    "starts a new file at that size or interval")
-        .required()
-        .type_name("FILE");
+                    "?rotate_every=1h starts a new file at that size or interval")
+        .required();
     command.add_flag("--json", options->json,
                      "at the end, print the totals as one JSON object on stdout (docs/guide/relay.md)");
     command.footer(

@@ -245,44 +245,45 @@ Exit relay(const Common& common, RelayOptions& options) {
     return status_of(outcome, printed);
 }
 
-}  // namespace
-
-Run declare_relay(Arguments command, const Common& common) {
-    auto options = std::make_shared<RelayOptions>();
-    auto& edit = options->edit;
-    command.add_option("source", options->sources, "where to receive").required().type_name("SOURCE");
-    command.add_option("--to", options->to, "where to send; may be repeated").required().type_name("ENDPOINT");
-    command.add_option("--set", edit.set, "give a field this value: ATTITUDE.roll=0.1; may be repeated")
-        .type_name("MESSAGE.FIELD=VALUE");
+// The options that change frames.
+void declare_edits(Arguments command, RelayOptions& options) {
+    auto& edit = options.edit;
+    command.add_option("--set", "MESSAGE.FIELD=VALUE", edit.set,
+                       "give a field this value: ATTITUDE.roll=0.1; may be repeated");
+    command.add_option("--remap-system", "A=B", edit.remap_system,
+                       "change system id A to B; in answers from the far side, change B back to A");
+    command.add_option("--only", "NAMES", edit.only, "only these messages: names or ids, separated by commas")
+        .delimiter(',');
     command
-        .add_option("--remap-system", edit.remap_system,
-                    "change system id A to B; in answers from the far side, change B back to A")
-        .type_name("A=B");
-    command.add_option("--only", edit.only, "only these messages: names or ids, separated by commas")
-        .delimiter(',')
-        .type_name("NAMES");
-    command
-        .add_option("--max-rate", edit.max_rate,
+        .add_option("--max-rate", "MESSAGE:HZ", edit.max_rate,
                     "limit a message from each source to this rate; * is all telemetry: ATTITUDE:10,*:50")
-        .delimiter(',')
-        .type_name("MESSAGE:HZ");
+        .delimiter(',');
     auto v1 = command.add_flag(
-        "--as-v1", options->as_v1,
+        "--as-v1", options.as_v1,
         "send MAVLink 1: extension fields are cut; messages with ids over 255 are dropped and counted");
-    command.add_flag("--as-v2", options->as_v2, "send MAVLink 2").excludes(v1);
-    auto sign = command.add_option("--sign", options->sign_file,
-                                   "sign sent frames with the key in this file (64 hexadecimal digits, mode 0600)");
-    sign.type_name("FILE").excludes(v1);
-    command.add_option("--sign-link-id", edit.sign_link_id, "the link id in the signatures of --sign, 0 to 255")
+    command.add_flag("--as-v2", options.as_v2, "send MAVLink 2").excludes(v1);
+    auto sign = command
+                    .add_option("--sign", "FILE", options.sign_file,
+                                "sign sent frames with the key in this file (64 hexadecimal digits, mode 0600)")
+                    .excludes(v1);
+    command.add_option("--sign-link-id", "N", edit.sign_link_id, "the link id in the signatures of --sign, 0 to 255")
         .default_str(std::to_string(edit.sign_link_id))
-        .type_name("N")
         .range(0, 255)
         .needs(sign);
     command.add_flag("--resequence", edit.resequence,
                      "assign new sequence numbers, so that a filtered stream shows no loss");
+}
+
+}  // namespace
+
+Run declare_relay(Arguments command, const Common& common) {
+    auto options = std::make_shared<RelayOptions>();
+    command.add_option("source", "SOURCE", options->sources, "where to receive").required();
+    command.add_option("--to", "ENDPOINT", options->to, "where to send; may be repeated").required();
+    declare_edits(command, *options);
     command.add_flag("--json", options->json,
                      "at the end, print the totals as one JSON object on stdout (docs/guide/relay.md)");
-    command.add_option("--for", options->duration, "end after this time: 10s, 2m").type_name("TIME");
+    command.add_option("--for", "TIME", options->duration, "end after this time: 10s, 2m");
     command.footer(
         "Without options, the output is byte for byte the input. Answers from the far side go back to the "
         "sources. A ring is read losslessly unless ?lossless=false.\n\nExamples:\n"

@@ -180,16 +180,15 @@ Exit replay(const Common& common, ReplayOptions& options) {
 
 Run declare_replay(Arguments command, const Common& common) {
     auto options = std::make_shared<ReplayOptions>();
-    command.add_option("file", options->file, "the recording").required().type_name("FILE.tlog");
-    command.add_option("--to", options->to, "where to send; may be repeated").required().type_name("ENDPOINT");
+    command.add_option("file", "FILE.tlog", options->file, "the recording").required();
+    command.add_option("--to", "ENDPOINT", options->to, "where to send; may be repeated").required();
     command
-        .add_option("--speed", options->speed,
+        .add_option("--speed", "N|max", options->speed,
                     "1 is the recorded pace, 10 is ten times as fast, max does not wait at all")
-        .default_str("1")
-        .type_name("N|max");
-    command.add_option("--start", options->start, "begin this long after the recording's earliest time: 30s, 2m")
-        .type_name("TIME");
-    command.add_option("--for", options->duration, "end after this time").type_name("TIME");
+        .default_str("1");
+    command.add_option("--start", "TIME", options->start,
+                       "begin this long after the recording's earliest time: 30s, 2m");
+    command.add_option("--for", "TIME", options->duration, "end after this time");
     command.add_flag("--no-wait", options->no_wait, "start even if a destination has no peer");
     options->selection.declare(command);
     command.add_flag("--json", options->json,

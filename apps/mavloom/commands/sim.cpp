@@ -10,11 +10,11 @@
 #include "command.hpp"
 #include "counted.hpp"
 #include "mavloom/base/shown.hpp"
-#include "mavloom/control/control.hpp"
 #include "mavloom/control/service_manager.hpp"
 #include "mavloom/simserve/report.hpp"
 #include "mavloom/simserve/scenario.hpp"
 #include "mavloom/simserve/simulator.hpp"
+#include "open_control.hpp"
 #include "output.hpp"
 #include "signals.hpp"
 
@@ -142,23 +142,6 @@ SetupResult<void> open_shared(const Common& common, const Scenario& scenario, Si
     return {};
 }
 
-// Without --name, the simulator starts even if another one already has the default name; `ctl` then reaches that one.
-SetupResult<std::unique_ptr<control::Control>> open_control(const Common& common, const Scenario& scenario,
-                                                            Simulator& simulator) {
-    control::ControlOptions options;
-    options.metrics = scenario.metrics;
-    auto path = control::control_path(scenario.control_name());
-    if (path) options.socket = *path;
-    else if (!scenario.name.empty()) return tl::unexpected(std::move(path.error()));
-    else print_notice(common, path.error().text);
-    auto opened = control::Control::create(simulator, options);
-    if (opened || !scenario.name.empty() || opened.error().code != SetupCode::in_use) return opened;
-    options.socket.clear();
-    auto without = control::Control::create(simulator, options);  // fails again if the port of metrics was in use
-    if (without) print_notice(common, fmt::format("no control socket: {}", opened.error().text));
-    return without;
-}
-
 void log_vehicles(const Common& common, const Scenario& scenario, Simulator& simulator) {
     for (const auto& group : scenario.vehicles) {
         const auto& o = group.options;
@@ -222,7 +205,8 @@ Exit simulate(const Common& common, const SimOptions& options) {
     const auto simulator = make_simulator(common, *scenario, *dialect);
     if (!simulator) return fail(simulator.error());
     const Signals signals([](void* s) noexcept { static_cast<Simulator*>(s)->wake(); }, simulator->get());
-    const auto control = open_control(common, *scenario, **simulator);
+    const auto control = open_control(common, **simulator, {{}, scenario->metrics, {}}, scenario->name,
+                                      scenario->control_name());
     if (!control) return fail(control.error());
     if (const auto port = (*control)->metrics_port(); port != 0 && scenario->metrics->port == 0)
         print_notice(common, fmt::format("metrics at port {}", port));
@@ -236,23 +220,19 @@ Exit simulate(const Common& common, const SimOptions& options) {
 
 Run declare_sim(Arguments command, const Common& common) {
     auto options = std::make_shared<SimOptions>();
+    command.add_option("scenario", "SCENARIO.toml", options->file,
+                       "vehicles and endpoints, from a file (docs/guide/sim.md); `mavloom check` validates it");
     command
-        .add_option("scenario", options->file,
-                    "vehicles and endpoints, from a file (docs/guide/sim.md); `mavloom check` validates it")
-        .type_name("SCENARIO.toml");
-    command
-        .add_option("--to", options->to,
+        .add_option("--to", "ENDPOINT", options->to,
                     "send to udpout://, tcpout://, serial://, udpbcast://, udpmcast://, or shm://NAME, the inlet of a "
                     "router's ring; may be repeated (default: udpout://127.0.0.1:14550)")
-        .type_name("ENDPOINT")
         .one_value_each();
-    command.add_option("--listen", options->listen, "wait for clients at udpin:// or tcpin://; may be repeated")
-        .type_name("ENDPOINT")
+    command
+        .add_option("--listen", "ENDPOINT", options->listen, "wait for clients at udpin:// or tcpin://; may be repeated")
         .one_value_each();
     for (std::size_t i = 0; i < std::size(key_options); ++i) {
         const KeyOption& option = key_options[i];
-        if (option.type != nullptr)
-            command.add_option(option.name, options->texts[i], option.description).type_name(option.type);
+        if (option.type != nullptr) command.add_option(option.name, option.type, options->texts[i], option.description);
         else
             command.add_flag(option.name, option.key == "gimbal" ? options->gimbal : options->report,
                              option.description);

@@ -23,7 +23,7 @@ inline constexpr Nanoseconds look_at_signals = std::chrono::milliseconds{100};
 
 // Arguments that several subcommands take.
 inline void add_name(Arguments part, std::string& name) {
-    part.add_option("NAME", name, "the ring: letters, digits, _ and -").required();
+    part.add_option("NAME", "TEXT", name, "the ring: letters, digits, _ and -").required();
 }
 inline void add_json(Arguments part, bool& json) { part.add_flag("--json", json, "print one JSON object per line"); }
 

@@ -150,10 +150,10 @@ Run declare_read(Arguments part, const Common& common) {
     auto options = std::make_shared<ReadOptions>();
     add_name(part, options->name);
     add_json(part, options->json);
-    part.add_option("--from", options->from, "newest: records from now on; oldest: also those that the ring holds")
+    part.add_option("--from", "WHERE", options->from,
+                    "newest: records from now on; oldest: also those that the ring holds")
         .members({"newest", "oldest"})
-        .capture_default_str()
-        .type_name("WHERE");
+        .capture_default_str();
     part.add_flag("--lossless", options->lossless,
                   "miss no record; if this reader is slow, the writer waits for it, or evicts it");
     part.add_flag("--foreign", options->foreign,
@@ -161,8 +161,8 @@ Run declare_read(Arguments part, const Common& common) {
                   "folder of the sockets (MAVLOOM_RUN)");
     part.add_flag("--data", options->data, "print each record as its bytes and a newline, without tags");
     part.add_flag("--drain", options->drain, "end when everything is read and no process writes the ring");
-    part.add_option("--count", options->count, "end after this many records").range(1, 2147483647).type_name("N");
-    part.add_option("--for", options->duration, "end after this time: 10s, 2m, 500ms").type_name("TIME");
+    part.add_option("--count", "N", options->count, "end after this many records").range(1, 2147483647);
+    part.add_option("--for", "TIME", options->duration, "end after this time: 10s, 2m, 500ms");
     return [options, &common] { return read(common, *options); };
 }
 

@@ -33,7 +33,7 @@ Exit remove(const RemoveOptions& options) {
 
 Run declare_remove(Arguments part, const Common&) {
     auto options = std::make_shared<RemoveOptions>();
-    part.add_option("NAME", options->names, "the rings").required().type_name("NAME");
+    part.add_option("NAME", "NAME", options->names, "the rings").required();
     part.add_flag("--force", options->force, "also if a process still writes the ring");
     return [options] { return remove(*options); };
 }

@@ -124,28 +124,23 @@ Run declare_write(Arguments part, const Common& common) {
     auto options = std::make_shared<WriteOptions>();
     add_name(part, options->name);
     part.add_option(
-            "--capacity", options->capacity,
-            "capacity of a new ring, a power of two from 64k (bytes, k, M, G); default 8M. An existing ring of another "
-            "capacity is replaced if it has no writer")
-        .type_name("BYTES");
-    part.add_option("--full", options->full,
+        "--capacity", "BYTES", options->capacity,
+        "capacity of a new ring, a power of two from 64k (bytes, k, M, G); default 8M. An existing ring of another "
+        "capacity is replaced if it has no writer");
+    part.add_option("--full", "POLICY", options->full,
                     "what to do while lossless readers keep the ring full: wait, drop_newest, or evict them")
         .members({"wait", "drop_newest", "evict"})
-        .capture_default_str()
-        .type_name("POLICY");
-    part.add_option("--mode", options->mode, "permissions of a new ring").capture_default_str().type_name("OCTAL");
-    part.add_option("--link", options->link, "the link id stored with each record")
+        .capture_default_str();
+    part.add_option("--mode", "OCTAL", options->mode, "permissions of a new ring").capture_default_str();
+    part.add_option("--link", "N", options->link, "the link id stored with each record")
         .range(0, 2147483647)
-        .capture_default_str()
-        .type_name("N");
-    part.add_option("--kind", options->kind, "the kind stored with each record; 1 is a MAVLink frame")
+        .capture_default_str();
+    part.add_option("--kind", "N", options->kind, "the kind stored with each record; 1 is a MAVLink frame")
         .range(0, 65535)
-        .capture_default_str()
-        .type_name("N");
-    part.add_option("--verdict", options->verdict, "the verdict stored with each record (docs/formats/ring.md)")
+        .capture_default_str();
+    part.add_option("--verdict", "N", options->verdict, "the verdict stored with each record (docs/formats/ring.md)")
         .range(0, 255)
-        .capture_default_str()
-        .type_name("N");
+        .capture_default_str();
     part.add_flag("--hex", options->hex, "read each line as hexadecimal digits");
     part.add_flag("--remove", options->remove, "remove the ring at the end");
     return [options, &common] { return write(common, *options); };

@@ -89,7 +89,8 @@ struct PlacedEndpoint {
     Section section;  // all options as text, with their origins
 };
 // Reads an [[endpoint]] table. It gives the place as `url`, or as `scheme` with `host` and `port`, `path` or `ring`.
-// The options of the scheme are further keys.
-[[nodiscard]] SetupResult<PlacedEndpoint> read_endpoint(const Document& document, const Table& table);
+// The options of the scheme are further keys. Refuses an endpoint whose name one of the `earlier` sections has.
+[[nodiscard]] SetupResult<PlacedEndpoint> read_endpoint(const Document& document, const Table& table,
+                                                        std::span<const Section> earlier);
 
 }  // namespace mavloom::config

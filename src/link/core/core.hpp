@@ -19,6 +19,7 @@
 #include "link/core/outlets.hpp"
 #include "link/core/tickers.hpp"
 #include "link/open_endpoint.hpp"
+#include "link/signing/signing_ids.hpp"
 #include "mavloom/net/event_loop.hpp"
 #include "mavloom/net/udp.hpp"
 #include "mavloom/wire/parse_event.hpp"
@@ -45,9 +46,9 @@ private:
         if (&dialect == dialect_) [[likely]]
             return;
         dialect_ = &dialect;
-        const MessageClasses::Rule rule = dialect.classes.of(frame_.id());
+        const QueueRules::Rule rule = dialect.queue_rules.of(frame_.id());
         block_class_ = rule.block_class;
-        key_ = MessageClasses::key(frame_, rule);
+        key_ = QueueRules::key(frame_, rule);
     }
 
     wire::FrameView frame_;

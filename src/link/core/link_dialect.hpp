@@ -5,7 +5,7 @@
 
 #include <map>
 
-#include "link/core/message_class.hpp"
+#include "link/core/queue_rules.hpp"
 #include "mavloom/dialect/dialect.hpp"
 #include "mavloom/link/links.hpp"
 #include "mavloom/wire/message_table.hpp"
@@ -13,10 +13,10 @@
 namespace mavloom::link::detail {
 
 struct LinkDialect {
-    explicit LinkDialect(const dialect::Dialect& dialect) : table(dialect.wire_table()), classes(dialect) {}
+    explicit LinkDialect(const dialect::Dialect& dialect) : table(dialect.wire_table()), queue_rules(dialect) {}
 
     const wire::MessageTable& table;
-    MessageClasses classes;
+    QueueRules queue_rules;
 };
 
 // The dialect of each endpoint: its own if it has one, otherwise the usual one. Dialects must outlive the object.

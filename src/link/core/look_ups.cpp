@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "link/core/look_ups.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 namespace mavloom::link::detail {
@@ -32,10 +30,6 @@ std::optional<net::Resolver::Answer> NameUser::look_up_now(const endpoint::HostP
     auto answer = look_ups_.may_wait_ ? look_ups_.resolver_.wait(ticket, limit) : std::nullopt;
     if (!answer) look_ups_.questions_.emplace_back(ticket, this);
     return answer;
-}
-
-SetupError no_answer(const endpoint::HostPort& host) {
-    return {SetupCode::unreachable, 0, fmt::format("the look-up of host '{}' took longer than 5 s", host.host)};
 }
 
 }  // namespace mavloom::link::detail

@@ -54,11 +54,4 @@ private:
     LookUps& look_ups_;
 };
 
-// How long an endpoint waits for the address of its far side's host.
-[[nodiscard]] constexpr std::chrono::milliseconds look_up_limit(bool required) noexcept {
-    return std::chrono::milliseconds(required ? 5000 : 250);
-}
-// The error for a look-up that has no answer after 5 s.
-[[nodiscard]] SetupError no_answer(const endpoint::HostPort& host);
-
 }  // namespace mavloom::link::detail

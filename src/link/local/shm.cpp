@@ -27,7 +27,7 @@ public:
     explicit InletSender(Opening& opening)
         : OpenEndpoint(opening),
           core_(opening.core),
-          peer_(*this, opening.id, queue_limits(opening.endpoint.options)),
+          peer_(*this, opening.id, opening.endpoint.options),
           retry_(core_, *this, *this) {
         peer_.name = opening.endpoint.label();
         peer_.signature = signature.get();
@@ -55,7 +55,8 @@ public:
 
 private:
     struct Peer final : Link {
-        Peer(InletSender& o, EndpointId owner, const net::BlockQueue::Limits& limits) : Link(owner, limits), inlet(o) {}
+        Peer(InletSender& o, EndpointId owner, const endpoint::EndpointOptions& options)
+            : Link(owner, options), inlet(o) {}
         void schedule() override { inlet.core_.outlets.schedule(inlet); }
         InletSender& inlet;
     };

@@ -30,7 +30,7 @@ public:
           core_(opening.core),
           device_(opening.endpoint.path),
           searching_(opening.endpoint.options.baud == 0),
-          peer_(core_, *this, opening.id, queue_limits(opening.endpoint.options)),
+          peer_(core_, *this, opening.id, opening.endpoint.options),
           retry_(core_, *this, *this) {
         peer_.name = opening.endpoint.label();
         peer_.signature = signature.get();

@@ -24,8 +24,8 @@ public:
 // Keeps at most 50 ms of data in the driver; the rest waits in the queue, where it can expire.
 class SerialPeer final : public StreamPeer<SerialPeer, net::SerialPort>, public net::TimerHandler {
 public:
-    SerialPeer(Core& core, SerialOwner& owner, EndpointId endpoint_id, const net::BlockQueue::Limits& limits)
-        : StreamPeer(core, endpoint_id, limits), owner_(owner) {}
+    SerialPeer(Core& core, SerialOwner& owner, EndpointId endpoint_id, const endpoint::EndpointOptions& options)
+        : StreamPeer(core, endpoint_id, options), owner_(owner) {}
     ~SerialPeer() override { core_.loop().cancel_timer(pace_); }
 
     [[nodiscard]] SetupResult<void> attach(net::SerialPort port);

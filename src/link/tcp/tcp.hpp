@@ -22,8 +22,8 @@ public:
 // A far side is never disconnected because it reads slowly.
 class TcpPeer final : public StreamPeer<TcpPeer, net::TcpStream> {
 public:
-    TcpPeer(Core& core, TcpOwner& owner, EndpointId endpoint_id, const net::BlockQueue::Limits& limits)
-        : StreamPeer(core, endpoint_id, limits), owner_(owner) {}
+    TcpPeer(Core& core, TcpOwner& owner, EndpointId endpoint_id, const endpoint::EndpointOptions& options)
+        : StreamPeer(core, endpoint_id, options), owner_(owner) {}
 
     // Delivers the events that the parser still holds back, then closes the stream and calls on_closed.
     void close(std::string_view why) {

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "link/admission.hpp"
-#include "link/listening.hpp"
 #include "link/peer_list.hpp"
+#include "link/resolve_and_open.hpp"
 #include "link/retry.hpp"
 #include "link/tcp/crowds.hpp"
 #include "link/tcp/tcp.hpp"
@@ -139,7 +139,7 @@ void TcpIn::admit(net::TcpStream stream) {
         }
         return;
     }
-    auto peer = std::make_unique<TcpPeer>(core_, *this, info.id, queue_limits(info.endpoint.options));
+    auto peer = std::make_unique<TcpPeer>(core_, *this, info.id, info.endpoint.options);
     peer->name = fmt::format("{}#{}", info.label(), stream.remote().text());
     peer->connected_at = core_.now();
     peer->host = stream.remote().host_part();

@@ -3,9 +3,9 @@
 // connection until they are too old.
 #include <fmt/format.h>
 
+#include "link/resolve_and_open.hpp"
 #include "link/retry.hpp"
 #include "link/tcp/tcp.hpp"
-#include "mavloom/endpoint/checks.hpp"
 
 namespace mavloom::link::detail {
 
@@ -26,7 +26,7 @@ public:
           NameUser(opening.core.look_ups),
           core_(opening.core),
           local_(local),
-          peer_(core_, *this, opening.id, queue_limits(opening.endpoint.options)),
+          peer_(core_, *this, opening.id, opening.endpoint.options),
           retry_(core_, *this, *this) {
         peer_.name = opening.endpoint.label();
         peer_.signature = signature.get();
@@ -37,12 +37,12 @@ public:
         core_.remove_link(peer_, "closed");
     }
 
-    // Resolves the host and connects, in the background.
-    void begin() {
-        if (auto answer = look_up_now(info.endpoint.address, look_up_limit(false))) on_resolved(std::move(*answer));
+    // Connects in the background, or waits for the result if `required`.
+    SetupResult<void> begin(net::Resolver::Answer&& answer, bool required) {
+        if (required) return connect_and_wait(answer);
+        on_resolved(std::move(answer));
+        return {};
     }
-    // Resolves the host and connects, and waits for the result.
-    SetupResult<void> begin_and_wait();
 
     std::size_t send(const wire::FrameView& frame) override { return peer_.up && core_.send(peer_, frame) ? 1 : 0; }
     [[nodiscard]] std::size_t queued_bytes() const override { return peer_.queue.bytes(); }
@@ -52,6 +52,7 @@ public:
     void on_timer(MonoTime now) override;
 
 private:
+    SetupResult<void> connect_and_wait(const net::Resolver::Answer& answer);
     SetupResult<void> connect_to(const net::Address& address);
     SetupResult<void> finish();
     void fail(const SetupError& error);
@@ -144,12 +145,10 @@ void TcpOut::on_up_timer(MonoTime now) {
     retry_.after(peer_.last_heard + idle - now);
 }
 
-SetupResult<void> TcpOut::begin_and_wait() {
-    auto answer = look_up_now(info.endpoint.address, look_up_limit(true));
-    if (!answer) return tl::unexpected(no_answer(info.endpoint.address));
-    if (!*answer) return tl::unexpected(std::move(answer->error()));
+SetupResult<void> TcpOut::connect_and_wait(const net::Resolver::Answer& answer) {
+    if (!answer) return tl::unexpected(answer.error());
     SetupError last{SetupCode::not_found, 0, "the host has no address of the same family as bind="};
-    for (const net::Address& address : **answer) {
+    for (const net::Address& address : *answer) {
         if (local_ && address.family() != local_->family()) continue;
         auto done = connect_to(address);
         if (done && !connecting_.wait_connected(required_limit)) {
@@ -169,18 +168,7 @@ SetupResult<void> TcpOut::begin_and_wait() {
 }  // namespace
 
 SetupResult<std::unique_ptr<OpenEndpoint>> open_tcpout(Opening opening) {
-    const endpoint::Endpoint& endpoint = opening.endpoint;
-    if (auto checked = endpoint::check_destination(endpoint); !checked)
-        return tl::unexpected(std::move(checked).error());
-    auto local = endpoint::local_address(endpoint);
-    if (!local) return tl::unexpected(std::move(local).error());
-    auto opened = std::make_unique<TcpOut>(opening, *local);
-    if (!endpoint.options.required || opening.core.has_begun()) {
-        opened->begin();
-    } else if (auto done = opened->begin_and_wait(); !done) {
-        return tl::unexpected(std::move(done.error()).within(endpoint.label()));
-    }
-    return opened;
+    return open_destination<TcpOut>(std::move(opening));
 }
 
 }  // namespace mavloom::link::detail

@@ -72,8 +72,8 @@ UdpPeer* UdpPeers::newcomer(UdpPort& port, const net::Datagram& datagram) {
         return nullptr;
     }
     const EndpointInfo& info = endpoint_.info;
-    auto peer = std::make_unique<UdpPeer>(info.id, queue_limits(info.endpoint.options),
-                                          core_.dialects.of(info.id).table, port, *datagram.from);
+    auto peer = std::make_unique<UdpPeer>(info.id, info.endpoint.options, core_.dialects.of(info.id).table, port,
+                                          *datagram.from);
     peer->name = fmt::format("{}#{}", info.label(), datagram.from->text());
     peer->last_heard = peer->first_heard = core_.now();  // until its first frame is found
     if (must_confirm(*datagram.from)) peer->give_allowance();

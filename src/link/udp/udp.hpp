@@ -18,9 +18,9 @@ namespace mavloom::link::detail {
 class UdpPort;
 
 struct UdpPeer final : Link {
-    UdpPeer(EndpointId owner, const net::BlockQueue::Limits& limits, const wire::MessageTable& table, UdpPort& p,
+    UdpPeer(EndpointId owner, const endpoint::EndpointOptions& options, const wire::MessageTable& table, UdpPort& p,
             const net::Address& a)
-        : Link(owner, limits), port(&p), address(a), parser(table) {}
+        : Link(owner, options), port(&p), address(a), parser(table) {}
     void schedule() override;
 
     UdpPort* port;

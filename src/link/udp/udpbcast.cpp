@@ -4,9 +4,9 @@
 // does not end the broadcast. With fixed=true a single link broadcasts to, and hears, everyone.
 #include <fmt/format.h>
 
+#include "link/resolve_and_open.hpp"
 #include "link/retry.hpp"
 #include "link/udp/peers.hpp"
-#include "mavloom/endpoint/checks.hpp"
 #include "mavloom/net/interfaces.hpp"
 
 namespace mavloom::link::detail {
@@ -21,8 +21,8 @@ public:
           core_(opening.core),
           local_(local),
           port_(opening.core, *this, counters, opening.endpoint.options.mtu_bytes),
-          everybody_(opening.id, queue_limits(opening.endpoint.options), opening.core.dialects.of(opening.id).table,
-                     port_, net::Address{}),
+          everybody_(opening.id, opening.endpoint.options, opening.core.dialects.of(opening.id).table, port_,
+                     net::Address{}),
           peers_(opening.core, *this, *this),
           retry_(opening.core, *this, *this) {
         everybody_.name = opening.endpoint.label();
@@ -34,8 +34,7 @@ public:
         port_.forget(everybody_);
     }
 
-    SetupResult<void> start(const net::Resolver::Answer& answer);
-    void fail(const SetupError& error) { retry_.fail(error); }
+    SetupResult<void> begin(const net::Resolver::Answer& answer, bool required);
 
     std::size_t send(const wire::FrameView& frame) override {
         if (everybody_.up) return core_.send(everybody_, frame) ? 1 : 0;
@@ -57,6 +56,8 @@ public:
     void on_timer(MonoTime) override { look_up(info.endpoint.address); }
 
 private:
+    SetupResult<void> start(const net::Resolver::Answer& answer);
+
     Core& core_;
     std::optional<net::Address> local_;
     net::OwnAddresses own_;
@@ -66,6 +67,15 @@ private:
     Retry retry_;
     bool reported_unreachable_ = false;
 };
+
+// Tries again later if the host or the interface is missing.
+SetupResult<void> UdpBroadcast::begin(const net::Resolver::Answer& answer, bool required) {
+    auto done = start(answer);
+    const bool may_come = !answer || (!done && done.error().code == SetupCode::not_found);
+    if (done || required || !may_come) return done;
+    retry_.fail(done.error());
+    return {};
+}
 
 SetupResult<void> UdpBroadcast::start(const net::Resolver::Answer& answer) {
     if (!answer) return tl::unexpected(answer.error());
@@ -82,7 +92,7 @@ SetupResult<void> UdpBroadcast::start(const net::Resolver::Answer& answer) {
 }
 
 void UdpBroadcast::on_resolved(net::Resolver::Answer&& answer) {
-    if (auto done = start(answer); !done) fail(done.error());
+    if (auto done = start(answer); !done) retry_.fail(done.error());
 }
 
 // A socket bound to the broadcast port hears its own datagrams.
@@ -101,23 +111,7 @@ void UdpBroadcast::on_send_error(net::IoError error) {
 }  // namespace
 
 SetupResult<std::unique_ptr<OpenEndpoint>> open_udpbcast(Opening opening) {
-    Core& core = opening.core;
-    const endpoint::Endpoint& endpoint = opening.endpoint;
-    if (auto checked = endpoint::check_destination(endpoint); !checked)
-        return tl::unexpected(std::move(checked).error());
-    auto local = endpoint::local_address(endpoint);
-    if (!local) return tl::unexpected(std::move(local).error());
-    const bool required = endpoint.options.required && !core.has_begun();
-    auto opened = std::make_unique<UdpBroadcast>(opening, *local);
-    auto answer = opened->look_up_now(endpoint.address, look_up_limit(required));
-    if (!answer && !required) return opened;
-    if (!answer) return tl::unexpected(no_answer(endpoint.address).within(endpoint.label()));
-    auto done = opened->start(*answer);
-    if (done) return opened;
-    const bool may_come = !*answer || done.error().code == SetupCode::not_found;
-    if (required || !may_come) return tl::unexpected(std::move(done.error()).within(endpoint.label()));
-    opened->fail(done.error());
-    return opened;
+    return open_destination<UdpBroadcast>(std::move(opening));
 }
 
 }  // namespace mavloom::link::detail

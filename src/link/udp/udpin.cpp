@@ -2,7 +2,7 @@
 // udpin: listens on a UDP port. Each peer that sends valid MAVLink is its own link.
 #include <fmt/format.h>
 
-#include "link/listening.hpp"
+#include "link/resolve_and_open.hpp"
 #include "link/retry.hpp"
 #include "link/udp/peers.hpp"
 #include "mavloom/endpoint/checks.hpp"

@@ -24,8 +24,7 @@ public:
           idle_(opening.endpoint.options.idle.value_or(UdpPeers::default_idle)),
           hearing_(opening.core, *this, counters, opening.endpoint.options.mtu_bytes),
           sending_(opening.core, *this, counters, opening.endpoint.options.mtu_bytes),
-          group_(opening.id, queue_limits(opening.endpoint.options), opening.core.dialects.of(opening.id).table,
-                 sending_, group),
+          group_(opening.id, opening.endpoint.options, opening.core.dialects.of(opening.id).table, sending_, group),
           retry_(opening.core, *this, *this) {
         group_.name = opening.endpoint.label();
         group_.signature = signature.get();

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
+#include "link/resolve_and_open.hpp"
 #include "link/retry.hpp"
 #include "link/udp/udp.hpp"
-#include "mavloom/endpoint/checks.hpp"
 
 namespace mavloom::link::detail {
 
@@ -28,7 +28,11 @@ public:
         if (peer_) port_->forget(*peer_);
     }
 
-    SetupResult<void> start(net::Resolver::Answer answer);
+    SetupResult<void> begin(net::Resolver::Answer&& answer, bool required) {
+        if (answer || required) return start(std::move(answer));
+        on_resolved(std::move(answer));
+        return {};
+    }
 
     std::size_t send(const wire::FrameView& frame) override { return peer_ && core_.send(*peer_, frame) ? 1 : 0; }
     [[nodiscard]] std::size_t queued_bytes() const override { return peer_ ? peer_->queue.bytes() : 0; }
@@ -52,6 +56,7 @@ public:
     void on_timer(MonoTime now) override;
 
 private:
+    SetupResult<void> start(net::Resolver::Answer answer);
     SetupResult<void> aim_at(const net::Address& address);
     SetupResult<void> open_port(const net::Address& address);
 
@@ -95,8 +100,8 @@ SetupResult<void> UdpOut::open_port(const net::Address& address) {
 SetupResult<void> UdpOut::aim_at(const net::Address& address) {
     if (auto done = open_port(address); !done) return done;
     if (!peer_) {
-        peer_ = std::make_unique<UdpPeer>(info.id, queue_limits(info.endpoint.options),
-                                          core_.dialects.of(info.id).table, *port_, address);
+        peer_ = std::make_unique<UdpPeer>(info.id, info.endpoint.options, core_.dialects.of(info.id).table, *port_,
+                                          address);
         peer_->name = info.endpoint.label();
         peer_->signature = signature.get();
         core_.add_link(*peer_);
@@ -154,26 +159,7 @@ void UdpOut::on_timer(MonoTime now) {
 }  // namespace
 
 SetupResult<std::unique_ptr<OpenEndpoint>> open_udpout(Opening opening) {
-    Core& core = opening.core;
-    const endpoint::Endpoint& endpoint = opening.endpoint;
-    if (auto checked = endpoint::check_destination(endpoint); !checked)
-        return tl::unexpected(std::move(checked).error());
-    auto local = endpoint::local_address(endpoint);
-    if (!local) return tl::unexpected(std::move(local).error());
-    const bool required = endpoint.options.required;
-    auto opened = std::make_unique<UdpOut>(opening, *local);
-    auto answer = opened->look_up_now(endpoint.address, look_up_limit(required));
-    if (!answer) {
-        if (!required || core.has_begun()) return opened;
-        return tl::unexpected(no_answer(endpoint.address).within(endpoint.label()));
-    }
-    if (!*answer && !required) {
-        opened->on_resolved(std::move(*answer));
-        return opened;
-    }
-    if (auto done = opened->start(std::move(*answer)); !done)
-        return tl::unexpected(std::move(done.error()).within(endpoint.label()));
-    return opened;
+    return open_destination<UdpOut>(std::move(opening));
 }
 
 }  // namespace mavloom::link::detail

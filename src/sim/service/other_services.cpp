@@ -3,8 +3,10 @@
 
 #include "sim/parts.hpp"
 #include "sim/payload/traffic.hpp"
+#include "sim/service/connection.hpp"
 #include "sim/service/controls.hpp"
 #include "sim/service/shell.hpp"
+#include "sim/telemetry/data_streams.hpp"
 
 namespace mavloom::sim {
 
@@ -13,6 +15,8 @@ std::vector<std::unique_ptr<Service>> make_other_services(Parts& parts) {
     services.push_back(std::make_unique<Controls>(parts));
     services.push_back(std::make_unique<Shell>(parts));
     if (parts.options.traffic != 0) services.push_back(std::make_unique<Traffic>(parts));
+    services.push_back(std::make_unique<Connection>(parts));
+    services.push_back(std::make_unique<DataStreams>(parts));
     return services;
 }
 

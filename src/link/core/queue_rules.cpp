@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "link/core/message_class.hpp"
+#include "link/core/queue_rules.hpp"
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@
 
 namespace mavloom::link {
 
-MessageClasses::MessageClasses(const dialect::Dialect& dialect) {
+QueueRules::QueueRules(const dialect::Dialect& dialect) {
     for (const dialect::Message& message : dialect.messages()) {
         const auto instance = std::find_if(message.fields.begin(), message.fields.end(),
                                            [](const auto& f) { return f.instance; });
@@ -17,7 +17,7 @@ MessageClasses::MessageClasses(const dialect::Dialect& dialect) {
     std::sort(far_.begin(), far_.end(), [](const Far& a, const Far& b) { return a.id < b.id; });
 }
 
-void MessageClasses::set(const wire::MessageInfo& info, const dialect::Field* instance) {
+void QueueRules::set(const wire::MessageInfo& info, const dialect::Field* instance) {
     Rule rule;
     const auto message_class = dialect::class_of(info.id, &info);
     rule.block_class = static_cast<std::uint8_t>(message_class);
@@ -34,7 +34,7 @@ void MessageClasses::set(const wire::MessageInfo& info, const dialect::Field* in
     }
 }
 
-MessageClasses::Rule MessageClasses::find(MessageId id) const noexcept {
+QueueRules::Rule QueueRules::find(MessageId id) const noexcept {
     const auto at = std::lower_bound(far_.begin(), far_.end(), id.value,
                                      [](const Far& f, std::uint32_t v) { return f.id < v; });
     return at != far_.end() && at->id == id.value ? at->rule : Rule{};
@@ -47,7 +47,7 @@ static std::uint64_t hash_of(ByteView bytes) noexcept {
     return h;
 }
 
-std::uint64_t MessageClasses::key(const wire::FrameView& frame, Rule rule) noexcept {
+std::uint64_t QueueRules::key(const wire::FrameView& frame, Rule rule) noexcept {
     if (!rule.replaceable) return 0;
     constexpr std::uint64_t present = std::uint64_t{1} << 63;
     const std::uint64_t base = present | frame.id().value | std::uint64_t{frame.system().value} << 24 |

@@ -12,7 +12,7 @@
 
 namespace mavloom::link {
 
-class MessageClasses {
+class QueueRules {
 public:
     struct Rule {
         std::uint8_t block_class = 2;
@@ -20,7 +20,7 @@ public:
         std::uint8_t instance_offset = 0, instance_size = 0;  // size 0: no instance field
     };
 
-    explicit MessageClasses(const dialect::Dialect& dialect);
+    explicit QueueRules(const dialect::Dialect& dialect);
 
     // Returns the rule of a message. An id without definition counts as telemetry that is never superseded.
     [[nodiscard]] Rule of(MessageId id) const noexcept { return id.value < direct_size ? direct_[id.value] : find(id); }

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Opens the control socket and the metrics port of a router or a simulator.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "command.hpp"
+#include "mavloom/control/control.hpp"
+
+namespace mavloom::app {
+
+// `name` is that of --name. If it is empty, the program gets the default name, and starts even if another program
+// already has that name; `ctl` then reaches that other program. Sets `options.socket`.
+[[nodiscard]] SetupResult<std::unique_ptr<control::Control>> open_control(const Common& common, control::Served& served,
+                                                                          control::ControlOptions options,
+                                                                          const std::string& name,
+                                                                          const std::string& default_name);
+
+}  // namespace mavloom::app

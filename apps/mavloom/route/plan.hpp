@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// What `mavloom route` is asked to do: its options, and the endpoints of the configuration file and the command line.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mavloom/base/result.hpp"
+#include "mavloom/config/config.hpp"
+#include "mavloom/dialect/dialect.hpp"
+
+namespace mavloom::app {
+
+struct RouteOptions {
+    std::vector<std::string> endpoints;
+    std::string config;
+    std::string duration;
+    std::string explain;  // a message's name or id; "*": all
+    std::string ring;     // overrides the ring of the file
+    std::string name;     // empty: the ring's name, else "router"
+    std::string metrics;  // HOST:PORT
+    bool has_metrics_detail = false;
+};
+
+// The endpoints to route between: first those of the configuration file, then those of the command line. A reload
+// changes only those of the file.
+struct Plan {
+    config::Config config;
+    std::vector<endpoint::Endpoint> from_command_line;
+
+    [[nodiscard]] std::vector<endpoint::Endpoint> endpoints() const {
+        auto all = config.endpoints;
+        all.insert(all.end(), from_command_line.begin(), from_command_line.end());
+        if (!config.record.path.empty()) all.push_back(recording());
+        return all;
+    }
+
+private:
+    [[nodiscard]] endpoint::Endpoint recording() const {
+        endpoint::Endpoint endpoint;
+        endpoint.scheme = endpoint::Scheme::tlog;
+        endpoint.path = config.record.path;
+        endpoint.options.rotate_bytes = config.record.rotate_bytes;
+        endpoint.options.rotate_every = config.record.rotate_every;
+        return endpoint;
+    }
+};
+
+// Reads the configuration file and the endpoints of the command line, and checks both.
+[[nodiscard]] SetupResult<Plan> make_plan(const RouteOptions& options, const dialect::Dialect& dialect);
+// Reads the configuration file again. Refuses one with which the router of the `running` plan cannot continue.
+[[nodiscard]] SetupResult<config::Config> reread_config(const RouteOptions& options, const dialect::Dialect& dialect,
+                                                        const Plan& running);
+
+}  // namespace mavloom::app
