@@ -147,7 +147,8 @@ def test_allowed_include_passes(path, line):
 
 def test_link_graph_follows_the_module_table():
     table = module_table()
-    declared = re.findall(r"^mavloom_module\((\w+)(?: DEPENDS ([\w ]*?))?(?=\)|\s+(?:LINK|PRIVATE_LINK|COLD))",
+    keyword = "LINK|PRIVATE_LINK|COLD|NO_SOURCES"
+    declared = re.findall(rf"^mavloom_module\((\w+)(?: DEPENDS ([\w ]*?))?(?=\)|\s+(?:{keyword}))",
                           (ROOT / "CMakeLists.txt").read_text(), re.MULTILINE)
     direct = {module: set(depends.split()) for module, depends in declared}
     assert set(direct) == set(table) - {"apps", "python"}
