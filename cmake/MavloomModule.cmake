@@ -14,7 +14,7 @@ function(mavloom_precompile target owner)
 endfunction()
 
 # For code that runs once or beside the work. Higher optimisation would speed up nothing that counts. It would add half
-# to the compile time, with a sanitizer twice as much again.
+# to the compile time, and more than that with a sanitizer.
 set(mavloom_unoptimised_debug $<$<CONFIG:Debug>:-O0>)
 set(mavloom_cold_flags $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-O1> ${mavloom_unoptimised_debug})
 
