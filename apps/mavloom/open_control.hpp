@@ -10,8 +10,9 @@
 
 namespace mavloom::app {
 
-// `name` is that of --name. If it is empty, the program gets the default name, and starts even if another program
-// already has that name; `ctl` then reaches that other program. Sets `options.socket`.
+// `name` is that of --name. If it is empty, the program gets the default name. It then starts without a control socket
+// if another program already has that name, which `ctl` then reaches, or if there is no folder for sockets. The name
+// decides the path of the socket; `options.socket` is ignored.
 [[nodiscard]] SetupResult<std::unique_ptr<control::Control>> open_control(const Common& common, control::Served& served,
                                                                           control::ControlOptions options,
                                                                           const std::string& name,

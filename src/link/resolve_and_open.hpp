@@ -27,9 +27,10 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_listening(Opening opening) {
     return opened;
 }
 
-// For udpout, udpbcast and tcpout. `Destination` is the class of the endpoint; its `begin(answer, required)` starts to
-// send to the addresses. `required` holds only until frames flow: from then on, nothing waits for a host. A look-up
-// that takes longer than 250 ms continues in the background, unless the endpoint is required.
+// For udpout, udpbcast and tcpout. `Destination` is the class of the endpoint. Its `begin(answer, required)` starts to
+// send to the addresses of the look-up. If the host is not reached, it returns the error, or tries again later if not
+// `required`. Once frames flow, nothing waits for a host, so `required` is then false. A look-up that takes longer than
+// 250 ms continues in the background, unless `required`.
 template <class Destination>
 SetupResult<std::unique_ptr<OpenEndpoint>> open_destination(Opening opening) {
     const endpoint::Endpoint& endpoint = opening.endpoint;

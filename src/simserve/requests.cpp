@@ -113,7 +113,7 @@ Report show_parameter(const std::vector<sim::Vehicle*>& vehicles, std::string_vi
                                     {"name", name},
                                     {"value", *vehicle->parameter(name)}});
     }
-    return control::succeeded([text](std::string& to) { to += text; });
+    return control::succeeded([text = std::move(text)](std::string& to) { to += text; });
 }
 
 // Sets the parameter if the request has a value, and reports it.
@@ -137,7 +137,8 @@ Report add(Simulator& simulator, const std::string& url) {
 
 Report remove(Simulator& simulator, const std::string& name) {
     if (!simulator.remove(name))
-        return failed(fmt::format("there is no endpoint {}, and no link that could be closed; links shows them", name));
+        return failed(fmt::format(
+            "there is no endpoint {}, and no link of that name that could be closed; `links` lists them", name));
     simulator.notify(config::LogLevel::info, name + ": removed by ctl");
     return control::succeeded();
 }

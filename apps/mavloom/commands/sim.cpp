@@ -3,19 +3,16 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <optional>
-#include <span>
 #include <utility>
 
 #include "command.hpp"
-#include "counted.hpp"
-#include "mavloom/base/shown.hpp"
 #include "mavloom/control/service_manager.hpp"
 #include "mavloom/simserve/report.hpp"
 #include "mavloom/simserve/scenario.hpp"
 #include "mavloom/simserve/simulator.hpp"
 #include "open_control.hpp"
 #include "output.hpp"
+#include "receiving.hpp"
 #include "signals.hpp"
 
 namespace mavloom::app {
@@ -142,7 +139,7 @@ SetupResult<void> open_shared(const Common& common, const Scenario& scenario, Si
     return {};
 }
 
-void log_vehicles(const Common& common, const Scenario& scenario, Simulator& simulator) {
+void log_vehicles(const Common& common, const Scenario& scenario) {
     for (const auto& group : scenario.vehicles) {
         const auto& o = group.options;
         const unsigned first = o.system.value, last = first + static_cast<unsigned>(group.count) - 1;
@@ -151,9 +148,6 @@ void log_vehicles(const Common& common, const Scenario& scenario, Simulator& sim
                                          sim::kind_names[static_cast<std::size_t>(o.kind)],
                                          sim::autopilot_names[static_cast<std::size_t>(o.autopilot)]));
     }
-    for (const auto& info : simulator.links().endpoints())
-        if (info.endpoint.address.port == 0 && info.local_port != 0)
-            print_notice(common, fmt::format("{}: listening on port {}", info.endpoint.label(), info.local_port));
 }
 
 Exit print_report(const SimOptions& options, const Scenario& scenario, const Simulator& simulator, Exit otherwise) {
@@ -205,12 +199,15 @@ Exit simulate(const Common& common, const SimOptions& options) {
     const auto simulator = make_simulator(common, *scenario, *dialect);
     if (!simulator) return fail(simulator.error());
     const Signals signals([](void* s) noexcept { static_cast<Simulator*>(s)->wake(); }, simulator->get());
-    const auto control = open_control(common, **simulator, {{}, scenario->metrics, {}}, scenario->name,
+    control::ControlOptions control_options;
+    control_options.metrics = scenario->metrics;
+    const auto control = open_control(common, **simulator, std::move(control_options), scenario->name,
                                       scenario->control_name());
     if (!control) return fail(control.error());
     if (const auto port = (*control)->metrics_port(); port != 0 && scenario->metrics->port == 0)
         print_notice(common, fmt::format("metrics at port {}", port));
-    log_vehicles(common, *scenario, **simulator);
+    log_vehicles(common, *scenario);
+    log_ports(common, (*simulator)->links().endpoints());
     fly(*scenario, **simulator);
     (*simulator)->finish(sim_send_limit);
     return Signals::status(print_report(options, *scenario, **simulator, Exit::done));

@@ -121,8 +121,8 @@ SetupResult<void> open_ring(const Common& common, const config::RingConfig& ring
     return {};
 }
 
-SetupResult<std::unique_ptr<control::Control>> open_control(const Common& common, const RouteOptions& options,
-                                                            const std::string& ring, router::Router& router) {
+SetupResult<std::unique_ptr<control::Control>> open_router_control(const Common& common, const RouteOptions& options,
+                                                                   const std::string& ring, router::Router& router) {
     control::ControlOptions control;
     control.on_notice = [&router](std::string_view text) { router.notify(config::LogLevel::warning, text); };
     if (!options.metrics.empty()) {
@@ -163,7 +163,7 @@ Exit route(const Common& common, const RouteOptions& options) {
     if (auto opened = open_ring(common, plan->config.ring, **router); !opened) return fail(opened.error());
     if (auto learned = (*router)->learn_group_modes(plan->endpoints()); !learned) return fail(learned.error());
     if (auto added = add_endpoints(**router, *plan, false); !added) return fail(added.error());
-    const auto control = open_control(common, options, plan->config.ring.name, **router);
+    const auto control = open_router_control(common, options, plan->config.ring.name, **router);
     if (!control) return fail(control.error());
     if (auto added = add_endpoints(**router, *plan, true); !added) return fail(added.error());
     if (const auto port = (*control)->metrics_port(); port != 0 && options.metrics.ends_with(":0"))

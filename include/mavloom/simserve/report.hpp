@@ -2,8 +2,8 @@
 // Reports of a simulator: JSON, one object per line, for `mavloom ctl` and `mavloom sim --json`; text for people;
 // metrics. docs/guide/sim.md documents the keys.
 //
-// Call the functions that take a Simulator on its thread. They only copy data; Report::next_text makes the text, on any
-// thread. All of them allocate.
+// Call the functions that return a Report on the simulator's thread. They only copy data, apart from `answer_request`,
+// which executes the request. Report::next_text makes the text, on any thread. All of them allocate.
 #pragma once
 
 #include <string>
@@ -28,7 +28,7 @@ using control::Report;
 // Prometheus' text exposition format, version 0.0.4.
 [[nodiscard]] Report report_metrics(Simulator& simulator);
 
-// The report at the end of a run: a "stream" line for each stream, then a "link_total" line for each link.
+// The report at the end of a run, as JSON: a "stream" line for each stream, then a "link_total" line for each link.
 [[nodiscard]] std::string json_of(const std::vector<LinkReport>& reports, double speed);
 // The same report as a table for people.
 [[nodiscard]] std::string text_of(const std::vector<LinkReport>& reports, double speed);

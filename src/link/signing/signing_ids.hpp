@@ -26,14 +26,14 @@ public:
     // Empty if open endpoints use all 256.
     [[nodiscard]] std::optional<std::uint8_t> choose(const std::string& label, EndpointId fresh,
                                                      const OpenEndpoints& endpoints) const;
-    // Notes that the endpoint was opened: `holder` now signs with `link_id`.
+    // Call when the endpoint was opened: `holder` now signs with `link_id`.
     void keep(const std::string& label, std::uint8_t link_id, EndpointId holder);
 
 private:
     struct Use {
         std::string label;
         EndpointId holder;
-        std::uint64_t number = 0;  // uses are counted; 0: nobody used it
+        std::uint64_t number = 0;  // grows with every use of any link id; 0: never used
     };
     std::array<Use, 256> uses_;  // by link id
     std::uint64_t count_ = 0;
