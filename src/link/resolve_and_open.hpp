@@ -40,12 +40,13 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_destination(Opening opening) {
     if (!local) return tl::unexpected(std::move(local).error());
     const bool required = endpoint.options.required && !opening.core.has_begun();
     auto opened = std::make_unique<Destination>(opening, *local);
-    auto answer = opened->look_up_now(endpoint.address, std::chrono::milliseconds(required ? 5000 : 250));
+    const std::chrono::milliseconds limit(required ? 5000 : 250);
+    auto answer = opened->look_up_now(endpoint.address, limit);
     if (!answer && !required) return opened;
     auto done = answer
                     ? opened->begin(std::move(*answer), required)
-                    : setup_error(SetupCode::unreachable,
-                                  fmt::format("the look-up of host '{}' took longer than 5 s", endpoint.address.host));
+                    : setup_error(SetupCode::unreachable, fmt::format("the look-up of host '{}' took longer than {} s",
+                                                                      endpoint.address.host, limit.count() / 1000));
     if (!done) return tl::unexpected(std::move(done.error()).within(endpoint.label()));
     return opened;
 }

@@ -10,10 +10,11 @@ namespace mavloom::test {
 
 inline const bool seed_is_set = [] {
     const char* seed = std::getenv("MAVLOOM_SEED");
-    if (seed != nullptr && std::getenv("RC_PARAMS") == nullptr)
-        ::setenv("RC_PARAMS", ("seed=" + std::string(seed)).c_str(),
-                 1);  // before main: RapidCheck reads it at its first use
-    return seed != nullptr;
+    if (seed == nullptr) return false;
+    const char* others = std::getenv("RC_PARAMS");
+    const auto parameters = std::string(others != nullptr ? others : "") + " seed=" + seed;
+    ::setenv("RC_PARAMS", parameters.c_str(), 1);  // before main: RapidCheck reads it at its first use
+    return true;
 }();
 
 }  // namespace mavloom::test
