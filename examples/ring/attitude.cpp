@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
         std::fputs("ring_attitude NAME\n", stderr);
         return 2;
     }
+    std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // a pipe gets each line at once
     shm::RingFollower ring(argv[1], {.lossless = true, .from = shm::ReaderOptions::From::oldest});
     wire::DatagramParser parser(dialect::default_dialect().wire_table());
     const auto next_record = [&] { return ring.read(mono_now() + std::chrono::seconds(2)); };
