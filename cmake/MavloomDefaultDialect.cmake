@@ -10,6 +10,7 @@ file(GLOB core_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/dialect/core
 add_library(mavloom_dialect_core ${core_sources})
 add_library(mavloom::dialect_core ALIAS mavloom_dialect_core)
 set_target_properties(mavloom_dialect_core PROPERTIES EXPORT_NAME dialect_core POSITION_INDEPENDENT_CODE ON)
+# Debug and sanitizer builds would spend more time on optimising it than on running it.
 target_compile_options(mavloom_dialect_core PRIVATE ${mavloom_unoptimised_debug})
 target_link_libraries(mavloom_dialect_core PUBLIC mavloom::wire PRIVATE pugixml::pugixml
                       $<BUILD_INTERFACE:mavloom_warnings>)

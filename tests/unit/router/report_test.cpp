@@ -127,16 +127,17 @@ TEST_F(ReportOfManySenders, IsWrittenInPieces) {
 }
 
 TEST_F(ReportOfManySenders, RequestsThatWaitShareACopy) {
+    constexpr std::size_t requests = 8;
     const auto running = report_stats(*router);
     ASSERT_TRUE(running.copy_more());
     std::vector<Report> waiting;
-    for (int i = 0; i < 8; ++i) waiting.push_back(report_stats(*router));
+    for (std::size_t i = 0; i < requests; ++i) waiting.push_back(report_stats(*router));
     copy_all(running);
 
     std::size_t pieces = 0;
     for (const auto& report : waiting)
         for (++pieces; report.copy_more();) ++pieces;
-    EXPECT_LT(pieces, 8 + 2 * senders / 256);
+    EXPECT_LT(pieces, requests + 2 * senders / 256);
     for (const auto& report : waiting) EXPECT_EQ(lines_of(report).back(), R"({"ok":true})");
 }
 
