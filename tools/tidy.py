@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""tidy.py units|headers|sources BUILD: checks the whole tree, for `./run tidy`. BUILD has compile_commands.json.
+"""tidy.py units|headers|sources BUILD: checks the whole tree, for `./run tidy`. BUILD has compile_commands.json, and no
+unity files.
 
-units: clang-tidy over the files of a unity build, which share the cost of headers.
+units: clang-tidy over many sources at a time, which share the cost of headers.
 headers, sources: the compiler's warnings, over each public header or each source by itself. This finds files that do
-       not include what they use. `sources` needs a build without unity files.
+       not include what they use.
 
 The exit status is 1 if there is a finding."""
 import concurrent.futures
@@ -16,6 +17,8 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
+TOPS = ("src", "apps", "tools", "python/src")
+FILES_A_UNIT = 70
 
 
 def passed(command: list[str], folder: pathlib.Path) -> bool:
@@ -37,31 +40,52 @@ def compile_commands(build: pathlib.Path) -> list[dict[str, str]]:
     return found or sys.exit(f"{build}: there are no sources to check")
 
 
-def unified(entry: dict[str, str]) -> dict[str, str]:
-    """Copies a unity file, and returns the command for the copy. The analyzer follows functions of included sources
-    only if the file has such a name (AnalysisManager::isInCodeFile of Clang)."""
-    source = entry["file"]
-    copy = re.sub(r"/unity_(\d+)_cxx\.cxx$", r"/UnifiedSource\1.cpp", source)
-    if copy != source:
-        pathlib.Path(copy).write_bytes(pathlib.Path(source).read_bytes())
-    return {**entry, "file": copy, "command": entry["command"].replace(source, copy)}
+def options_of(entry: dict[str, str]) -> list[str]:
+    """The compiler and its options. `-isystem FOLDER` is one string."""
+    words = shlex.split(entry["command"].replace("-isystem ", "-isystem"))
+    return words[:words.index("-o")]
+
+
+def groups_of(entries: list[dict[str, str]]) -> list[list[dict[str, str]]]:
+    """Groups of up to FILES_A_UNIT sources from one folder of TOPS, or generated."""
+    by_top: dict[str, list[dict[str, str]]] = {}
+    for entry in entries:
+        top = next((top for top in TOPS if entry["file"].startswith(f"{ROOT / top}/")), "generated")
+        by_top.setdefault(top, []).append(entry)
+    return [group[at:at + FILES_A_UNIT] for group in by_top.values() for at in range(0, len(group), FILES_A_UNIT)]
+
+
+def unite(group: list[dict[str, str]], path: pathlib.Path) -> dict[str, str]:
+    """Writes a source that includes those of the group, and returns its command, with the options of all of them. In
+    this source, -Wshadow also finds variables that have the name of a constant of another file."""
+    path.write_text("".join(f'#include "{entry["file"]}"\n' for entry in group))
+    options = dict.fromkeys(option for entry in group for option in options_of(entry))
+    command = shlex.join([*options, "-c", str(path)])
+    return {"directory": group[0]["directory"], "file": str(path), "command": command}
 
 
 def check_units(build: pathlib.Path) -> bool:
-    entries = [unified(entry) for entry in compile_commands(build)]
+    """The analyzer follows functions of included sources only if the file is called UnifiedSource
+    (AnalysisManager::isInCodeFile of Clang)."""
     database = build / "units"
     database.mkdir(exist_ok=True)
+    groups = sorted(groups_of(compile_commands(build)), key=len, reverse=True)
+    entries = [unite(group, database / f"UnifiedSource{number}.cpp") for number, group in enumerate(groups)]
     (database / "compile_commands.json").write_text(json.dumps(entries))
-    checks = "clang-diagnostic-*"
-    if not os.environ.get("MAVLOOM_FULL"):
-        checks += ",-performance-unnecessary-value-param"  # a tenth of the time, most of it in headers of libraries
-    check = ["clang-tidy-16", "-p", str(database), "--quiet", "--warnings-as-errors=*", f"--checks={checks}"]
-    return all_passed([[*check, entry["file"]] for entry in entries], build)
+    return all_passed([[*clang_tidy(), "-p", str(database), entry["file"]] for entry in entries], build)
+
+
+def clang_tidy() -> list[str]:
+    command = ["clang-tidy-16", "--quiet", "--warnings-as-errors=*"]
+    if os.environ.get("MAVLOOM_FULL"):
+        config = (ROOT / ".clang-tidy").read_text().replace("max-nodes=20000", "max-nodes=225000")
+        return [*command, "--checks=clang-diagnostic-*", f"--config={config}"]
+    # The second is a tenth of the time, most of it in headers of libraries.
+    return [*command, "--checks=clang-diagnostic-*,-performance-unnecessary-value-param"]
 
 
 def compiler(entry: dict[str, str]) -> list[str]:
-    words = shlex.split(entry["command"])
-    return [*words[:words.index("-o")], "-fsyntax-only", "-Werror"]
+    return [*options_of(entry), "-fsyntax-only", "-Werror"]
 
 
 def check_headers(build: pathlib.Path) -> bool:

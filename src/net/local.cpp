@@ -11,6 +11,7 @@
 #include <cstring>
 #include <ctime>
 
+#include "net/kernel_time.hpp"
 #include "net/socket_options.hpp"
 #include "net/unix_address.hpp"
 
@@ -67,14 +68,6 @@ IoResult<std::size_t> LocalSocket::receive() noexcept {
     const int count = ::recvmmsg(fd_.get(), slots_->messages.data(), slots, MSG_TRUNC, nullptr);
     if (count < 0) return tl::unexpected(io_error_of(errno));
     return static_cast<std::size_t>(count);
-}
-
-static WallTime kernel_time(const msghdr& header) noexcept {
-    const cmsghdr* const control = CMSG_FIRSTHDR(&header);
-    if (control == nullptr || control->cmsg_level != SOL_SOCKET || control->cmsg_type != SCM_TIMESTAMPNS) return {};
-    timespec time;
-    std::memcpy(&time, CMSG_DATA(control), sizeof time);
-    return WallTime{std::chrono::seconds(time.tv_sec) + Nanoseconds(time.tv_nsec)};
 }
 
 // The kernel's length may or may not include the NUL after a path.

@@ -9,8 +9,10 @@
 #include <array>
 #include <cassert>
 #include <cerrno>
+#include <cstring>
 #include <ctime>
 
+#include "net/kernel_time.hpp"
 #include "net/socket_options.hpp"
 
 #ifndef SO_MEMINFO  // Linux 4.12; missing from glibc's headers on some architectures
@@ -79,14 +81,6 @@ void ReceiveBatch::rearm(std::size_t count) noexcept {
         header.msg_controllen = sizeof(Slots::Control::bytes);
         header.msg_flags = 0;
     }
-}
-
-static WallTime kernel_time(const msghdr& header) noexcept {
-    const cmsghdr* control = CMSG_FIRSTHDR(&header);
-    if (control == nullptr || control->cmsg_level != SOL_SOCKET || control->cmsg_type != SCM_TIMESTAMPNS) return {};
-    timespec time;
-    std::memcpy(&time, CMSG_DATA(control), sizeof time);
-    return WallTime{std::chrono::seconds(time.tv_sec) + Nanoseconds(time.tv_nsec)};
 }
 
 Datagram ReceiveBatch::operator[](std::size_t index) const noexcept {

@@ -182,11 +182,12 @@ def test_a_ring_is_not_filled_with_itself(ring, writer):
 
 
 @pytest.mark.parametrize("options", ["", "?name=other"])
-def test_hear_does_not_fill_a_ring_with_itself(ring, writer, options):
+def test_hear_does_not_fill_a_ring_with_itself(ring, writer, child_environment, options):
     """Refused before anything is announced, and the ring stays as it is."""
     writer.write(beat(1), kind=1)
     writer.close()
-    done = harness.Running([sys.executable, "-m", "mavloom.hear", f"shm://{ring}{options}", "--ring", ring]).wait()
+    done = harness.Running([sys.executable, "-m", "mavloom.hear", f"shm://{ring}{options}", "--ring", ring],
+                           env=child_environment).wait()
     assert (done.status, done.stderr) == (2, f"mavloom.hear: this link reads ring {ring}, so the ring would be "
                                              "filled with its own records\n"), done
     assert ring in mavloom.rings()

@@ -38,15 +38,15 @@ struct BenchOptions {
     bool json = false;
 };
 
-struct Recording {
+struct ParserInput {
     Bytes frames;  // back to back, as a serial line would carry them
     std::vector<WallTime> times;
 };
 
-SetupResult<Recording> read_recording(const std::string& path, const wire::MessageTable& table) {
+SetupResult<ParserInput> read_recording(const std::string& path, const wire::MessageTable& table) {
     auto reader = record::TlogReader::open(path, table);
     if (!reader) return tl::unexpected(of_input_file(std::move(reader.error())));
-    Recording recording;
+    ParserInput recording;
     while (const auto record = reader->next()) {
         const auto bytes = record->frame.bytes();
         recording.frames.insert(recording.frames.end(), bytes.begin(), bytes.end());
@@ -70,7 +70,7 @@ double per_second(int turns, double amount, Work&& work) {
 }
 
 template <class OnFrame>
-void parse_all(const Recording& recording, std::size_t chunk, const wire::MessageTable& table, OnFrame&& on_frame) {
+void parse_all(const ParserInput& recording, std::size_t chunk, const wire::MessageTable& table, OnFrame&& on_frame) {
     wire::StreamParser parser(table);
     const auto sink = [&](const wire::ParseEvent& event) {
         if (event.kind == wire::ParseEvent::Kind::frame) on_frame(event.frame);
@@ -82,7 +82,7 @@ void parse_all(const Recording& recording, std::size_t chunk, const wire::Messag
 }
 
 void print(const BenchOptions& options, std::string_view what, double per_s, std::string_view unit,
-           const Recording& recording) {
+           const ParserInput& recording) {
     if (options.json) {
         fmt::print(
             "{{\"bench\":\"{}\",\"per_second\":{:.0f},\"unit\":\"{}\",\"frames\":{},\"bytes\":{},\"turns\":{}}}\n",
@@ -94,7 +94,7 @@ void print(const BenchOptions& options, std::string_view what, double per_s, std
     }
 }
 
-Exit bench_parse(const BenchOptions& options, const dialect::Dialect& dialect, const Recording& recording) {
+Exit bench_parse(const BenchOptions& options, const dialect::Dialect& dialect, const ParserInput& recording) {
     const auto& table = dialect.wire_table();
     std::uint64_t found = 0;
     parse_all(recording, options.chunk, table, [&](const wire::FrameView&) { ++found; });
@@ -111,7 +111,7 @@ Exit bench_parse(const BenchOptions& options, const dialect::Dialect& dialect, c
 
 template <class Append>
 void bench_form(const BenchOptions& options, std::string_view what, const dialect::Dialect& dialect,
-                const Recording& recording, Append&& append) {
+                const ParserInput& recording, Append&& append) {
     message::TextBuffer out;
     const auto work = [&] {
         std::size_t index = 0;
@@ -124,7 +124,7 @@ void bench_form(const BenchOptions& options, std::string_view what, const dialec
           recording);
 }
 
-Exit bench_decode(const BenchOptions& options, const dialect::Dialect& dialect, const Recording& recording) {
+Exit bench_decode(const BenchOptions& options, const dialect::Dialect& dialect, const ParserInput& recording) {
     const message::JsonFormatter json(dialect);
     bench_form(options, "decode json", dialect, recording,
                [&](auto& out, const auto& received) { json.append(out, received); });
@@ -163,7 +163,7 @@ struct RingOptions {
     bool json = false;
 };
 
-constexpr auto patience = std::chrono::seconds(10);  // how long to wait for the other side
+constexpr auto longest_wait = std::chrono::seconds(10);  // for the other side
 constexpr auto look_at_end = std::chrono::milliseconds(100);
 constexpr std::uint64_t look_at_signals = 1u << 16;  // check after this many records
 
@@ -175,7 +175,7 @@ bool read_up_to(shm::RingReader& reader, std::uint64_t& next, const std::atomic<
         good = good && std::memcmp(record.data.data(), &next, sizeof next) == 0;
         ++next;
     };
-    MonoTime limit = mono_now() + patience;
+    MonoTime limit = mono_now() + longest_wait;
     while (good && next < end) {
         if (!reader.try_visit(end - next, look)) {
             const auto record = reader.read(mono_now() + look_at_end);
@@ -183,7 +183,7 @@ bool read_up_to(shm::RingReader& reader, std::uint64_t& next, const std::atomic<
             if (!record) continue;
             look(*record);
         }
-        limit = mono_now() + patience;
+        limit = mono_now() + longest_wait;
     }
     return good;
 }
@@ -210,7 +210,7 @@ bool hand_over(shm::RingWriter& writer, std::vector<shm::RingReader>& readers, c
                 break;
             }
             std::memcpy(payload.data(), &first, sizeof first);
-            if (!writer.write(payload, {}, mono_now() + patience)) good = false;
+            if (!writer.write(payload, {}, mono_now() + longest_wait)) good = false;
         }
         writer.flush();
     }
@@ -258,7 +258,7 @@ Exit bench_shm(const RingOptions& options) {
     return Signals::status(Exit::done);
 }
 
-Arguments declare_shm(Arguments command, RingOptions& options) {
+Arguments declare_ring(Arguments command, RingOptions& options) {
     auto sub = command.add_subcommand("shm", "pass records through a ring to other threads: records per second");
     sub.add_option("--readers", "N", options.readers, "number of lossless readers, each in its own thread; 1 to 64")
         .capture_default_str()
@@ -298,7 +298,7 @@ Run declare_bench(Arguments command, const Common& common) {
                              "find and validate the frames of a recording: bytes per second");
     declare_one(command, *options, "decode", "decode a recording to JSON and to text: messages per second");
     auto ring_options = std::make_shared<RingOptions>();
-    auto ring = declare_shm(command, *ring_options);
+    auto ring = declare_ring(command, *ring_options);
     auto sim_options = std::make_shared<SimBenchOptions>();
     auto sim = declare_sim_bench(command, *sim_options);
     command.require_subcommand();

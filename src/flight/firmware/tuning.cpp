@@ -30,7 +30,7 @@ private:
     const Parameters& parameters_;
 };
 
-constexpr double fastest = 60, longest = 1e6;  // m/s; s and m
+constexpr double top_speed = 60, top_length = 1e6;  // m/s; s and m
 
 FailsafeAction px4_gcs_loss(int value) noexcept {
     using enum FailsafeAction;
@@ -90,30 +90,30 @@ void read_px4_battery(const Reader& read, Tuning& t) {
 }
 
 void read_px4_safety(const Reader& read, Tuning& t) {
-    t.disarm_after_landing = read.number("COM_DISARM_LAND", t.disarm_after_landing, -1, longest);
-    t.disarm_without_takeoff = read.number("COM_DISARM_PRFLT", t.disarm_without_takeoff, -1, longest);
+    t.disarm_after_landing = read.number("COM_DISARM_LAND", t.disarm_after_landing, -1, top_length);
+    t.disarm_without_takeoff = read.number("COM_DISARM_PRFLT", t.disarm_without_takeoff, -1, top_length);
     t.spool_up = read.number("COM_SPOOLUP_TIME", t.spool_up, 0, 30);
-    t.gcs_loss = read.number("COM_DL_LOSS_T", t.gcs_loss, 1, longest);
+    t.gcs_loss = read.number("COM_DL_LOSS_T", t.gcs_loss, 1, top_length);
     t.on_gcs_loss = px4_gcs_loss(read.choice("NAV_DLL_ACT", 0));
     t.offboard_loss = read.number("COM_OF_LOSS_T", t.offboard_loss, 0, 60);
     t.on_offboard_loss = px4_offboard_loss(read.choice("COM_OBL_RC_ACT", 0));
     t.manual_loss = read.number("COM_RC_LOSS_T", t.manual_loss, 0.1, 35);
     t.on_manual_loss = px4_manual_loss(read.choice("NAV_RCL_ACT", 2));
-    t.fence_radius = read.number("GF_MAX_HOR_DIST", 0, 0, longest);
-    t.fence_height = read.number("GF_MAX_VER_DIST", 0, 0, longest);
+    t.fence_radius = read.number("GF_MAX_HOR_DIST", 0, 0, top_length);
+    t.fence_height = read.number("GF_MAX_VER_DIST", 0, 0, top_length);
     t.on_fence = px4_fence(read.choice("GF_ACTION", 2));
     t.may_inject_failures = read.choice("SYS_FAILURE_EN", 0) == 1;
     t.needs_position_to_arm = read.choice("COM_ARM_WO_GPS", 1) != 2;
 }
 
 void read_px4_navigation(const Reader& read, Tuning& t) {
-    t.takeoff_altitude = read.number("MIS_TAKEOFF_ALT", t.takeoff_altitude, 0.5, longest);
-    t.acceptance_radius = read.number("NAV_ACC_RAD", t.acceptance_radius, 0.05, longest);
+    t.takeoff_altitude = read.number("MIS_TAKEOFF_ALT", t.takeoff_altitude, 0.5, top_length);
+    t.acceptance_radius = read.number("NAV_ACC_RAD", t.acceptance_radius, 0.05, top_length);
     t.loiter_radius = read.number("NAV_LOITER_RAD", t.loiter_radius, -10000, 10000);
-    t.return_altitude = read.number("RTL_RETURN_ALT", t.return_altitude, 0, longest);
-    t.return_descend_altitude = read.number("RTL_DESCEND_ALT", t.return_descend_altitude, 0, longest);
-    t.return_land_delay = read.number("RTL_LAND_DELAY", 0, -1, longest);
-    t.return_min_distance = read.number("RTL_MIN_DIST", t.return_min_distance, 0.5, longest);
+    t.return_altitude = read.number("RTL_RETURN_ALT", t.return_altitude, 0, top_length);
+    t.return_descend_altitude = read.number("RTL_DESCEND_ALT", t.return_descend_altitude, 0, top_length);
+    t.return_land_delay = read.number("RTL_LAND_DELAY", 0, -1, top_length);
+    t.return_min_distance = read.number("RTL_MIN_DIST", t.return_min_distance, 0.5, top_length);
     t.return_cone = to_radians(read.number("RTL_CONE_ANG", 45, 0, 90));
     t.follow_distance = read.number("FLW_TGT_DST", t.follow_distance, 1, 1000);
     t.follow_height = read.number("FLW_TGT_HT", t.follow_height, 1, 1000);
@@ -121,14 +121,14 @@ void read_px4_navigation(const Reader& read, Tuning& t) {
 }
 
 void read_px4_copter(const Reader& read, Tuning& t) {
-    t.max_speed = read.number("MPC_XY_VEL_MAX", t.max_speed, 0.1, fastest);
-    t.cruise_speed = std::min(read.number("MPC_XY_CRUISE", t.cruise_speed, 0.1, fastest), t.max_speed);
-    t.climb_speed = std::min(read.number("MPC_Z_V_AUTO_UP", t.climb_speed, 0.1, fastest),
-                             read.number("MPC_Z_VEL_MAX_UP", t.climb_speed, 0.1, fastest));
-    t.descent_speed = std::min(read.number("MPC_Z_V_AUTO_DN", t.descent_speed, 0.1, fastest),
-                               read.number("MPC_Z_VEL_MAX_DN", t.descent_speed, 0.1, fastest));
-    t.takeoff_speed = read.number("MPC_TKO_SPEED", t.takeoff_speed, 0.1, fastest);
-    t.land_speed = read.number("MPC_LAND_SPEED", t.land_speed, 0.1, fastest);
+    t.max_speed = read.number("MPC_XY_VEL_MAX", t.max_speed, 0.1, top_speed);
+    t.cruise_speed = std::min(read.number("MPC_XY_CRUISE", t.cruise_speed, 0.1, top_speed), t.max_speed);
+    t.climb_speed = std::min(read.number("MPC_Z_V_AUTO_UP", t.climb_speed, 0.1, top_speed),
+                             read.number("MPC_Z_VEL_MAX_UP", t.climb_speed, 0.1, top_speed));
+    t.descent_speed = std::min(read.number("MPC_Z_V_AUTO_DN", t.descent_speed, 0.1, top_speed),
+                               read.number("MPC_Z_VEL_MAX_DN", t.descent_speed, 0.1, top_speed));
+    t.takeoff_speed = read.number("MPC_TKO_SPEED", t.takeoff_speed, 0.1, top_speed);
+    t.land_speed = read.number("MPC_LAND_SPEED", t.land_speed, 0.1, top_speed);
     t.land_ramp_height = read.number("MPC_LAND_ALT1", t.land_ramp_height, 0, 122);
     t.land_slow_height = std::min(read.number("MPC_LAND_ALT2", t.land_slow_height, 0, 122), t.land_ramp_height);
     t.acceleration = read.number("MPC_ACC_HOR", t.acceleration, 0.5, 15);
@@ -138,19 +138,19 @@ void read_px4_copter(const Reader& read, Tuning& t) {
 }
 
 void read_px4_plane(const Reader& read, Tuning& t) {
-    t.min_airspeed = read.number("FW_AIRSPD_MIN", 10, 5, fastest);
-    t.max_speed = read.number("FW_AIRSPD_MAX", 20, 5, fastest);
-    t.cruise_speed = std::min(read.number("FW_AIRSPD_TRIM", 15, 5, fastest), t.max_speed);
-    t.climb_speed = read.number("FW_T_CLMB_R_SP", 3, 0.5, fastest);
-    t.descent_speed = read.number("FW_T_SINK_R_SP", 2, 0.5, fastest);
-    t.takeoff_speed = read.number("FW_T_CLMB_MAX", 5, 0.5, fastest);
+    t.min_airspeed = read.number("FW_AIRSPD_MIN", 10, 5, top_speed);
+    t.max_speed = read.number("FW_AIRSPD_MAX", 20, 5, top_speed);
+    t.cruise_speed = std::min(read.number("FW_AIRSPD_TRIM", 15, 5, top_speed), t.max_speed);
+    t.climb_speed = read.number("FW_T_CLMB_R_SP", 3, 0.5, top_speed);
+    t.descent_speed = read.number("FW_T_SINK_R_SP", 2, 0.5, top_speed);
+    t.takeoff_speed = read.number("FW_T_CLMB_MAX", 5, 0.5, top_speed);
     t.max_tilt = to_radians(read.number("FW_R_LIM", 50, 10, 80));
     t.altitude_acceptance = read.number("NAV_FW_ALT_RAD", 10, 0.05, 200);
 }
 
 void read_px4_rover(const Reader& read, Tuning& t) {
-    const double full = read.number("RO_MAX_THR_SPEED", 6, 0.1, fastest);
-    const double limit = read.number("RO_SPEED_LIM", 5, -1, fastest);
+    const double full = read.number("RO_MAX_THR_SPEED", 6, 0.1, top_speed);
+    const double limit = read.number("RO_SPEED_LIM", 5, -1, top_speed);
     t.max_speed = limit > 0 ? std::min(limit, full) : full;
     t.cruise_speed = t.max_speed;
     t.acceleration = std::max(0.1, read.number("RO_ACCEL_LIM", 3, -1, 100));
@@ -194,8 +194,8 @@ FailsafeAction ardupilot_gcs_loss(Kind kind, int enabled, int action) noexcept {
 void read_ardupilot_fence(const Reader& read, Kind kind, Tuning& t) {
     using enum FailsafeAction;
     const int type = read.choice("FENCE_ENABLE", 0) == 1 ? read.choice("FENCE_TYPE", 7) : 0;
-    if ((type & 1) != 0 && kind != Kind::rover) t.fence_height = read.number("FENCE_ALT_MAX", 100, 0, longest);
-    if ((type & 2) != 0) t.fence_radius = read.number("FENCE_RADIUS", 300, 0, longest);
+    if ((type & 1) != 0 && kind != Kind::rover) t.fence_height = read.number("FENCE_ALT_MAX", 100, 0, top_length);
+    if ((type & 2) != 0) t.fence_radius = read.number("FENCE_RADIUS", 300, 0, top_length);
     switch (read.choice("FENCE_ACTION", 1)) {
         case 0: t.on_fence = warn; break;
         case 2: t.on_fence = kind == Kind::quad ? land : hold; break;
@@ -207,8 +207,8 @@ void read_ardupilot_fence(const Reader& read, Kind kind, Tuning& t) {
 // In Guided, ArduPilot does not leave the mode when set-points end: the vehicle stops.
 void read_ardupilot_safety(const Reader& read, Kind kind, Tuning& t) {
     using enum FailsafeAction;
-    t.gcs_loss = kind == Kind::plane ? read.number("FS_LONG_TIMEOUT", 5, 1, longest)
-                                     : read.number("FS_GCS_TIMEOUT", 5, 1, longest);
+    t.gcs_loss = kind == Kind::plane ? read.number("FS_LONG_TIMEOUT", 5, 1, top_length)
+                                     : read.number("FS_GCS_TIMEOUT", 5, 1, top_length);
     const int enabled = kind == Kind::plane ? read.choice("FS_GCS_ENABL", 0) : read.choice("FS_GCS_ENABLE", 0);
     const int action = kind == Kind::plane ? read.choice("FS_LONG_ACTN", 0) : read.choice("FS_ACTION", 2);
     t.on_gcs_loss = ardupilot_gcs_loss(kind, enabled, action);
@@ -251,17 +251,17 @@ void read_ardupilot_copter(const Reader& read, Tuning& t) {
 }
 
 void read_ardupilot_plane(const Reader& read, Tuning& t) {
-    t.min_airspeed = read.number("AIRSPEED_MIN", 9, 5, fastest);
-    t.max_speed = read.number("AIRSPEED_MAX", 22, 5, fastest);
-    t.cruise_speed = std::min(read.number("AIRSPEED_CRUISE", 15, 5, fastest), t.max_speed);
-    t.climb_speed = t.takeoff_speed = read.number("TECS_CLMB_MAX", 5, 0.5, fastest);
-    t.descent_speed = read.number("TECS_SINK_MIN", 2, 0.5, fastest);
+    t.min_airspeed = read.number("AIRSPEED_MIN", 9, 5, top_speed);
+    t.max_speed = read.number("AIRSPEED_MAX", 22, 5, top_speed);
+    t.cruise_speed = std::min(read.number("AIRSPEED_CRUISE", 15, 5, top_speed), t.max_speed);
+    t.climb_speed = t.takeoff_speed = read.number("TECS_CLMB_MAX", 5, 0.5, top_speed);
+    t.descent_speed = read.number("TECS_SINK_MIN", 2, 0.5, top_speed);
     t.max_tilt = to_radians(read.number("ROLL_LIMIT_DEG", 45, 10, 80));
-    t.takeoff_altitude = read.number("TKOFF_ALT", 50, 1, longest);
+    t.takeoff_altitude = read.number("TKOFF_ALT", 50, 1, top_length);
     t.acceptance_radius = read.number("WP_RADIUS", 90, 1, 32767);
     t.altitude_acceptance = 10;
     t.loiter_radius = read.number("WP_LOITER_RAD", 60, -32767, 32767);
-    t.return_altitude = t.return_descend_altitude = read.number("RTL_ALTITUDE", 100, 0, longest);
+    t.return_altitude = t.return_descend_altitude = read.number("RTL_ALTITUDE", 100, 0, top_length);
     t.return_land_delay = -1;
     t.disarm_after_landing = read.number("LAND_DISARMDELAY", 20, 0, 127);
     t.disarm_without_takeoff = -1;
@@ -269,8 +269,8 @@ void read_ardupilot_plane(const Reader& read, Tuning& t) {
 }
 
 void read_ardupilot_rover(const Reader& read, Tuning& t) {
-    t.cruise_speed = read.number("WP_SPEED", 2, 0.1, fastest);
-    t.max_speed = std::max(t.cruise_speed, read.number("CRUISE_SPEED", 2, 0.1, fastest));
+    t.cruise_speed = read.number("WP_SPEED", 2, 0.1, top_speed);
+    t.max_speed = std::max(t.cruise_speed, read.number("CRUISE_SPEED", 2, 0.1, top_speed));
     t.acceleration = std::max(0.1, read.number("ATC_ACCEL_MAX", 1, 0, 10));
     t.max_yaw_rate = to_radians(read.number("ATC_STR_RAT_MAX", 120, 5, 1000));
     t.rover_turn_radius = read.number("TURN_RADIUS", 0.9, 0.1, 10);

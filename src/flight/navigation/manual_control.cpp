@@ -9,11 +9,11 @@ namespace mavloom::flight {
 namespace {
 
 constexpr double interval = 5 * step_s;  // s between two calls
-constexpr double tilt = to_radians(35), bank = to_radians(45), pitch_limit = to_radians(25);
-constexpr double turn_rate = to_radians(150);  // rad/s
+constexpr double stick_tilt = to_radians(35), stick_bank = to_radians(45), pitch_limit = to_radians(25);
+constexpr double stick_turn_rate = to_radians(150);  // rad/s
 constexpr double acro_rate = to_radians(220), acro_yaw_rate = to_radians(100);
 constexpr double stick_speed = 10;  // m/s
-constexpr double jerk = 8;          // m/s^3
+constexpr double stick_jerk = 8;    // m/s^3
 constexpr double dead_zone = 0.1;
 
 // A stick in -1 to 1 without its dead zone.
@@ -39,11 +39,11 @@ SpeedLimits ManualControl::limits() const noexcept {
             .down = tuning.descent_speed,
             .acceleration = std::max(tuning.acceleration, 5.0),
             .tilt = tuning.max_tilt,
-            .yaw_rate = turn_rate,
+            .yaw_rate = stick_turn_rate,
             .air_minimum = tuning.min_airspeed,
             .air_maximum = std::max(tuning.max_speed, tuning.cruise_speed + 1),
             .turn_radius = tuning.rover_turn_radius,
-            .jerk = jerk};
+            .jerk = stick_jerk};
 }
 
 Setpoint ManualControl::steer(Behaviour behaviour, const Sticks& sticks) {
@@ -53,7 +53,7 @@ Setpoint ManualControl::steer(Behaviour behaviour, const Sticks& sticks) {
 
 Setpoint ManualControl::steer_quad(Behaviour behaviour, const Sticks& sticks) {
     Setpoint setpoint{.thrust = sticks.throttle, .limits = limits()};
-    const double yaw_rate = turn_rate * beyond_dead_zone(sticks.yaw);
+    const double yaw_rate = stick_turn_rate * beyond_dead_zone(sticks.yaw);
     if (behaviour == Behaviour::acro) {
         setpoint.steering = Steering::rates;
         setpoint.rates = {acro_rate * sticks.roll, -acro_rate * sticks.pitch, acro_yaw_rate * sticks.yaw};
@@ -65,7 +65,7 @@ Setpoint ManualControl::steer_quad(Behaviour behaviour, const Sticks& sticks) {
     setpoint.yaw_rate = is_parked ? 0 : yaw_rate;
     if (behaviour == Behaviour::manual || behaviour == Behaviour::stabilized) {
         setpoint.steering = Steering::attitude;
-        setpoint.attitude = to_quaternion({tilt * sticks.roll, -tilt * sticks.pitch, yaw_});
+        setpoint.attitude = to_quaternion({stick_tilt * sticks.roll, -stick_tilt * sticks.pitch, yaw_});
         return setpoint;
     }
     const double up = climb_of(sticks);
@@ -73,7 +73,7 @@ Setpoint ManualControl::steer_quad(Behaviour behaviour, const Sticks& sticks) {
     const double forward = beyond_dead_zone(sticks.pitch), right = beyond_dead_zone(sticks.roll);
     const double heading = context_.craft.estimate().euler.yaw;
     if (behaviour == Behaviour::altitude) {
-        setpoint.acceleration = rotated(forward, right, heading) * (gravity * std::tan(tilt));
+        setpoint.acceleration = rotated(forward, right, heading) * (gravity * std::tan(stick_tilt));
     } else {
         setpoint.velocity = rotated(forward, right, heading) * setpoint.limits.horizontal;
     }
@@ -98,13 +98,13 @@ Setpoint ManualControl::steer_plane(Behaviour behaviour, const Sticks& sticks) c
         case Behaviour::stabilized:
             setpoint.steering = Steering::attitude;
             setpoint.attitude = to_quaternion(
-                {bank * sticks.roll, -pitch_limit * sticks.pitch, context_.craft.estimate().euler.yaw});
+                {stick_bank * sticks.roll, -pitch_limit * sticks.pitch, context_.craft.estimate().euler.yaw});
             return setpoint;
         default: break;
     }
     const double up = beyond_dead_zone(-sticks.pitch), turn = beyond_dead_zone(sticks.roll);
     setpoint.steering = Steering::trajectory;
-    if (turn != 0) setpoint.yaw_rate = gravity * std::tan(bank * turn) / setpoint.limits.horizontal;
+    if (turn != 0) setpoint.yaw_rate = gravity * std::tan(stick_bank * turn) / setpoint.limits.horizontal;
     if (up != 0) setpoint.velocity.z() = up > 0 ? -up * setpoint.limits.up : -up * setpoint.limits.down;
     if (context_.is_on_ground() && sticks.throttle > 0.5) setpoint.velocity.z() = -setpoint.limits.up;
     return setpoint;

@@ -27,7 +27,7 @@ namespace {
 
 using namespace msg;
 
-constexpr std::array control_messages{ManualControl::id,
+constexpr std::array control_messages{msg::ManualControl::id,
                                       RcChannelsOverride::id,
                                       SetPositionTargetLocalNed::id,
                                       SetPositionTargetGlobalInt::id,
@@ -92,7 +92,7 @@ Controls::Controls(Parts& parts) noexcept : parts_(parts), rejected_(FlightTime:
 std::span<const MessageId> Controls::handled() const noexcept { return control_messages; }
 
 void Controls::receive(const Client& from, MessageId id, ByteView payload, Moment now) {
-    if (id == ManualControl::id) return on_manual_control(from, payload);
+    if (id == msg::ManualControl::id) return on_manual_control(from, payload);
     if (id == RcChannelsOverride::id) return on_channels(from, payload);
     if (id == SetPositionTargetLocalNed::id) return on_local_target(payload, now);
     if (id == SetPositionTargetGlobalInt::id) return on_global_target(payload, now);
@@ -116,7 +116,7 @@ bool Controls::may_steer(const Client& from) const noexcept {
 }
 
 void Controls::on_manual_control(const Client& from, ByteView payload) {
-    const auto m = ManualControl::decode(payload);
+    const auto m = msg::ManualControl::decode(payload);
     if ((m.target != 0 && m.target != parts_.radio.system().value) || !may_steer(from)) return;
     const Sticks sticks{.pitch = axis(m.x), .roll = axis(m.y), .yaw = axis(m.r), .throttle = axis(m.z)};
     const bool has_no_axis = std::isnan(sticks.pitch) && std::isnan(sticks.roll) && std::isnan(sticks.yaw) &&

@@ -22,7 +22,7 @@ constexpr std::uint32_t piece = 249, block = 200;  // data bytes of LOGGING_DATA
 constexpr std::uint8_t no_message_begins = 255;
 constexpr Nanoseconds repeat_after = std::chrono::milliseconds{100};
 constexpr unsigned most_tries = 50;
-constexpr std::size_t window = 16;  // blocks without acknowledgement
+constexpr std::size_t most_in_flight = 16;  // blocks without acknowledgement
 constexpr Nanoseconds give_up_after = std::chrono::seconds{10};
 
 }  // namespace
@@ -135,7 +135,8 @@ bool LogStreams::pump_blocks(Stream& stream, Moment now) {
         sent.sent = now.real;
         send_block(stream, sent.seq);
     }
-    while (stream.blocks.size() < window && (stream.next_block + std::uint64_t{1}) * block <= written(stream, now)) {
+    while (stream.blocks.size() < most_in_flight &&
+           (stream.next_block + std::uint64_t{1}) * block <= written(stream, now)) {
         if (!radio_.has_room(stream.client.link)) break;
         stream.blocks.push_back({stream.next_block, now.real});
         send_block(stream, stream.next_block++);
