@@ -14,8 +14,8 @@ function(mavloom_precompile target owner)
 endfunction()
 
 # For code that runs once or beside the work. Higher optimisation would speed up nothing that counts. It would add half
-# to the compile time, and more than that with a sanitizer.
-set(mavloom_unoptimised_debug $<$<CONFIG:Debug>:-O0>)
+# to the compile time, and more than that with a sanitizer. A fuzzer runs it all the time.
+set(mavloom_unoptimised_debug $<$<AND:$<CONFIG:Debug>,$<NOT:$<BOOL:${MAVLOOM_FUZZ}>>>:-O0>)
 set(mavloom_cold_flags $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-O1> ${mavloom_unoptimised_debug})
 
 # -Wrestrict: GCC 12 is wrong about std::string (GCC bug 105329). In a unity build, GCC takes anonymous namespaces for

@@ -18,29 +18,29 @@ Option Option::members(const std::vector<std::string>& words) { return Option(op
 Option Option::excludes(Option other) { return Option(option_->excludes(other.option_)); }
 Option Option::needs(Option other) { return Option(option_->needs(other.option_)); }
 
-Option Arguments::add_option(const std::string& name, const std::string& type, std::string& value,
+Option Arguments::add_option(const std::string& name, const std::string& placeholder, std::string& value,
                              const std::string& description) {
-    return Option(command_->add_option(name, value, description)->type_name(type));
+    return Option(command_->add_option(name, value, description)->type_name(placeholder));
 }
 
-Option Arguments::add_option(const std::string& name, const std::string& type, std::vector<std::string>& values,
+Option Arguments::add_option(const std::string& name, const std::string& placeholder, std::vector<std::string>& values,
                              const std::string& description) {
-    return Option(command_->add_option(name, values, description)->type_name(type));
+    return Option(command_->add_option(name, values, description)->type_name(placeholder));
 }
 
-Option Arguments::add_option(const std::string& name, const std::string& type, int& value,
+Option Arguments::add_option(const std::string& name, const std::string& placeholder, int& value,
                              const std::string& description) {
-    return Option(command_->add_option(name, value, description)->type_name(type));
+    return Option(command_->add_option(name, value, description)->type_name(placeholder));
 }
 
-Option Arguments::add_option(const std::string& name, const std::string& type, std::size_t& value,
+Option Arguments::add_option(const std::string& name, const std::string& placeholder, std::size_t& value,
                              const std::string& description) {
-    return Option(command_->add_option(name, value, description)->type_name(type));
+    return Option(command_->add_option(name, value, description)->type_name(placeholder));
 }
 
-Option Arguments::add_option(const std::string& name, const std::string& type, std::uint8_t& value,
+Option Arguments::add_option(const std::string& name, const std::string& placeholder, std::uint8_t& value,
                              const std::string& description) {
-    return Option(command_->add_option(name, value, description)->type_name(type));
+    return Option(command_->add_option(name, value, description)->type_name(placeholder));
 }
 
 Option Arguments::add_flag(const std::string& name, bool& value, const std::string& description) {

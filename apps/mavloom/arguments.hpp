@@ -40,16 +40,17 @@ class Arguments {
 public:
     explicit Arguments(CLI::App* command) : command_(command) {}
 
-    // A name without dashes is positional. `type` stands for the value in the help. The variable must live until the
-    // command has run.
-    Option add_option(const std::string& name, const std::string& type, std::string& value,
+    // A name without dashes is positional. `placeholder` stands for the value in the help. The variable must live until
+    // the command has run.
+    Option add_option(const std::string& name, const std::string& placeholder, std::string& value,
                       const std::string& description);
-    Option add_option(const std::string& name, const std::string& type, std::vector<std::string>& values,
+    Option add_option(const std::string& name, const std::string& placeholder, std::vector<std::string>& values,
                       const std::string& description);
-    Option add_option(const std::string& name, const std::string& type, int& value, const std::string& description);
-    Option add_option(const std::string& name, const std::string& type, std::size_t& value,
+    Option add_option(const std::string& name, const std::string& placeholder, int& value,
                       const std::string& description);
-    Option add_option(const std::string& name, const std::string& type, std::uint8_t& value,
+    Option add_option(const std::string& name, const std::string& placeholder, std::size_t& value,
+                      const std::string& description);
+    Option add_option(const std::string& name, const std::string& placeholder, std::uint8_t& value,
                       const std::string& description);
     Option add_flag(const std::string& name, bool& value, const std::string& description);
 

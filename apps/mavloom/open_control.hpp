@@ -12,7 +12,8 @@ namespace mavloom::app {
 
 // `name` is that of --name. If it is empty, the program gets the default name. It then starts without a control socket
 // if another program already has that name, which `ctl` then reaches, or if there is no folder for sockets. The name
-// decides the path of the socket; `options.socket` is ignored.
+// decides the path of the socket; `options.socket` is ignored. If the port of the metrics is 0, prints the port that
+// the kernel chose.
 [[nodiscard]] SetupResult<std::unique_ptr<control::Control>> open_control(const Common& common, control::Served& served,
                                                                           control::ControlOptions options,
                                                                           const std::string& name,

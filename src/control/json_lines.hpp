@@ -3,10 +3,12 @@
 // include this header.
 #pragma once
 
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 
+#include "mavloom/base/clock.hpp"
 #include "mavloom/link/snapshot.hpp"
 
 namespace mavloom::control {
@@ -16,6 +18,11 @@ using Json = nlohmann::ordered_json;
 // Appends one line: the object, with `counts` as its last keys. Strings from outside, such as names in URLs, may hold
 // any bytes; invalid UTF-8 becomes U+FFFD.
 void append_line(std::string& text, Json object, std::span<const link::NamedCount> counts = {});
+
+// The line {"ok":true}, which ends a successful answer.
+inline void append_ok(std::string& text) { append_line(text, {{"ok", true}}); }
+
+[[nodiscard]] inline double seconds(Nanoseconds time) { return std::chrono::duration<double>(time).count(); }
 
 // One line each; `append_sources` appends one for each source of the link.
 void append_endpoint(std::string& text, const link::Snapshot::OfEndpoint& endpoint);

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "control/json_lines.hpp"
+#include "mavloom/base/shown.hpp"
 #include "mavloom/control/served.hpp"
 
 namespace mavloom::control {
@@ -21,6 +22,8 @@ namespace mavloom::control {
 [[nodiscard]] Report succeeded(std::function<void(std::string& text)> append_lines = [](std::string&) {});
 // The line {"ok":false,"error":WHY}.
 [[nodiscard]] Report failed(std::string_view why);
+// The error of a request to remove `name`, which is no endpoint, recording or link.
+[[nodiscard]] Report nothing_to_remove(std::string_view name);
 
 // Empty if the request has no text under this key.
 [[nodiscard]] std::string text_at(const Json& request, const char* key);
@@ -31,11 +34,10 @@ struct Command {
     Report (*answer)(Server& server, const Json& request);
 };
 
-// Executes one request line. For an unknown command, the error is `no_command(name)` and the names of the commands.
+// Executes one request line. For an unknown command, the error has the names of the commands.
 template <class Server, std::size_t count>
 [[nodiscard]] Report answer_request(Server& server, std::string_view request,
-                                    const std::array<Command<Server>, count>& commands,
-                                    std::string (*no_command)(std::string_view name)) {
+                                    const std::array<Command<Server>, count>& commands) {
     const auto parsed = Json::parse(request, nullptr, false);
     if (!parsed.is_object())
         return failed(fmt::format(R"(a request is one JSON object per line, as in {{"cmd":"{}"}})", commands[0].name));
@@ -43,7 +45,7 @@ template <class Server, std::size_t count>
     const auto command = std::ranges::find(commands, name, &Command<Server>::name);
     if (command != commands.end()) return command->answer(server, parsed);
     const auto names = commands | std::views::transform(&Command<Server>::name);
-    return failed(fmt::format("{}; there are {}", no_command(name), fmt::join(names, ", ")));
+    return failed(fmt::format("there is no command {}; there are {}", in_quotes(name), fmt::join(names, ", ")));
 }
 
 }  // namespace mavloom::control

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 
+#include "link/core/core.hpp"
 #include "mavloom/endpoint/grammar.hpp"
 
 namespace mavloom::link::detail {
+
+bool Opening::is_required() const noexcept { return endpoint.options.required && !core.has_begun(); }
 
 void OpenEndpoint::count_gone(const Link& link) noexcept {
     counters.gone.add(link.counters);

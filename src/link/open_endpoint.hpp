@@ -26,6 +26,9 @@ struct Opening {
     const endpoint::Endpoint& endpoint;
     EndpointId id;
     std::unique_ptr<Signature> signature;
+
+    // Whether the endpoint must open at once. Once frames flow, nothing waits for a host or a device.
+    [[nodiscard]] bool is_required() const noexcept;
 };
 
 class OpenEndpoint {

@@ -29,8 +29,8 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_listening(Opening opening) {
 
 // For udpout, udpbcast and tcpout. `Destination` is the class of the endpoint. Its `begin(answer, required)` starts to
 // send to the addresses of the look-up. If the host is not reached, it returns the error, or tries again later if not
-// `required`. Once frames flow, nothing waits for a host, so `required` is then false. A look-up that takes longer than
-// 250 ms continues in the background, unless `required`.
+// `required`. Other errors, such as a port in use, are always returned. A look-up that takes longer than 250 ms
+// continues in the background, unless `required`.
 template <class Destination>
 SetupResult<std::unique_ptr<OpenEndpoint>> open_destination(Opening opening) {
     const endpoint::Endpoint& endpoint = opening.endpoint;
@@ -38,7 +38,7 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_destination(Opening opening) {
         return tl::unexpected(std::move(checked).error());
     auto local = endpoint::local_address(endpoint);
     if (!local) return tl::unexpected(std::move(local).error());
-    const bool required = endpoint.options.required && !opening.core.has_begun();
+    const bool required = opening.is_required();
     auto opened = std::make_unique<Destination>(opening, *local);
     const std::chrono::milliseconds limit(required ? 5000 : 250);
     auto answer = opened->look_up_now(endpoint.address, limit);

@@ -16,9 +16,9 @@ namespace {
 
 using control::append_line;
 using control::MetricsText;
+using control::seconds;
 using link::NamedCount;
 
-double seconds(Nanoseconds time) { return std::chrono::duration<double>(time).count(); }
 double milliseconds(Nanoseconds time) { return std::chrono::duration<double, std::milli>(time).count(); }
 
 std::string_view landed_name(sim::LandedState state) {

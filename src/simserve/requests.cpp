@@ -21,25 +21,32 @@ using control::failed;
 using control::Json;
 using control::text_at;
 
-std::optional<double> number_at(const Json& request, const char* key) {
+// Empty if the request does not have the key.
+SetupResult<std::optional<double>> number_at(const Json& request, const char* key) {
     const auto at = request.find(key);
-    return at != request.end() && at->is_number() ? std::optional(at->get<double>()) : std::nullopt;
+    if (at == request.end()) return std::nullopt;
+    if (!at->is_number()) return setup_error(SetupCode::usage, fmt::format("'{}' is not a number", key));
+    return at->get<double>();
 }
-bool flag_at(const Json& request, const char* key) {
+
+// False if the request does not have the key.
+SetupResult<bool> flag_at(const Json& request, const char* key) {
     const auto at = request.find(key);
-    return at != request.end() && at->is_boolean() && at->get<bool>();
+    if (at == request.end()) return false;
+    if (!at->is_boolean()) return setup_error(SetupCode::usage, fmt::format("'{}' is neither true nor false", key));
+    return at->get<bool>();
 }
 
 using Vehicles = SetupResult<std::vector<sim::Vehicle*>>;
 
 // The vehicles that a request is for: the one with the id `system`, or all.
 Vehicles vehicles_of(Simulator& simulator, const Json& request) {
-    auto vehicles = simulator.vehicles();
-    if (!request.contains("system")) return vehicles;
     const auto system = number_at(request, "system");
-    std::erase_if(vehicles, [&](const sim::Vehicle* vehicle) { return vehicle->system().value != system; });
-    if (vehicles.empty())
-        return setup_error(SetupCode::usage, fmt::format("there is no vehicle {}", system.value_or(0)));
+    if (!system) return tl::unexpected(system.error());
+    auto vehicles = simulator.vehicles();
+    if (!*system) return vehicles;
+    std::erase_if(vehicles, [&](const sim::Vehicle* vehicle) { return vehicle->system().value != **system; });
+    if (vehicles.empty()) return setup_error(SetupCode::usage, fmt::format("there is no vehicle {}", **system));
     return vehicles;
 }
 
@@ -62,18 +69,20 @@ Vehicles order(Simulator& simulator, const Json& request, const Simulator::Order
 Report state_of(const Vehicles& vehicles) { return vehicles ? report_state(*vehicles) : failed(vehicles.error().text); }
 
 Report arm(Simulator& simulator, const Json& request) {
-    const bool forced = flag_at(request, "force");
-    return state_of(order(simulator, request, [forced](sim::Vehicle& vehicle) { return vehicle.arm(forced); }));
+    return state_of(flag_at(request, "force").and_then([&](bool forced) {
+        return order(simulator, request, [forced](sim::Vehicle& vehicle) { return vehicle.arm(forced); });
+    }));
 }
 
 Report disarm(Simulator& simulator, const Json& request) {
-    const bool forced = flag_at(request, "force");
-    return state_of(order(simulator, request, [forced](sim::Vehicle& vehicle) { return vehicle.disarm(forced); }));
+    return state_of(flag_at(request, "force").and_then([&](bool forced) {
+        return order(simulator, request, [forced](sim::Vehicle& vehicle) { return vehicle.disarm(forced); });
+    }));
 }
 
 Report take_off(Simulator& simulator, const Json& request) {
     constexpr double lowest_m = 0.5, highest_m = 10'000;
-    const auto altitude = number_at(request, "altitude");
+    const auto altitude = number_at(request, "altitude").value_or(std::nullopt);
     if (!altitude || !(*altitude >= lowest_m && *altitude <= highest_m))
         return failed(fmt::format("takeoff needs an altitude above home, {} to {} m", lowest_m, highest_m));
     return state_of(
@@ -120,10 +129,11 @@ Report show_parameter(const std::vector<sim::Vehicle*>& vehicles, std::string_vi
 Report parameter(Simulator& simulator, const Json& request) {
     const auto name = text_at(request, "name");
     const auto value = number_at(request, "value");
+    if (!value) return failed(value.error().text);
     const auto set = [&](sim::Vehicle& vehicle) {
-        return check_parameter(vehicle, name).and_then([&] { return vehicle.set_parameter(name, *value); });
+        return check_parameter(vehicle, name).and_then([&] { return vehicle.set_parameter(name, **value); });
     };
-    const auto vehicles = value ? order(simulator, request, set) : vehicles_of(simulator, request);
+    const auto vehicles = *value ? order(simulator, request, set) : vehicles_of(simulator, request);
     return vehicles ? show_parameter(*vehicles, name) : failed(vehicles.error().text);
 }
 
@@ -136,9 +146,7 @@ Report add(Simulator& simulator, const std::string& url) {
 }
 
 Report remove(Simulator& simulator, const std::string& name) {
-    if (!simulator.remove(name))
-        return failed(fmt::format(
-            "there is no endpoint {}, and no link of that name that could be closed; `links` lists them", name));
+    if (!simulator.remove(name)) return control::nothing_to_remove(name);
     simulator.notify(config::LogLevel::info, name + ": removed by ctl");
     return control::succeeded();
 }
@@ -162,9 +170,7 @@ constexpr std::array commands{
 }  // namespace
 
 Report answer_request(Simulator& simulator, std::string_view request) {
-    return control::answer_request(simulator, request, commands, [](std::string_view name) {
-        return fmt::format("a simulator has no command {}", in_quotes(name));
-    });
+    return control::answer_request(simulator, request, commands);
 }
 
 Report Simulator::answer(std::string_view request) { return answer_request(*this, request); }

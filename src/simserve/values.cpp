@@ -19,7 +19,8 @@ namespace {
 
 tl::unexpected<SetupError> usage(std::string text) { return setup_error(SetupCode::usage, std::move(text)); }
 
-constexpr Range latitudes{-90, 90}, longitudes{-180, 180}, altitudes{-500, 20'000}, headings{0, 360}, speeds{0, 60};
+constexpr Range latitude_range{-90, 90}, longitude_range{-180, 180}, altitude_range{-500, 20'000},
+    heading_range{0, 360}, speed_range{0, 60};
 
 SetupResult<std::vector<double>> parse_list(std::string_view text, std::span<const Range> ranges,
                                             std::span<const std::string_view> names) {
@@ -57,7 +58,7 @@ SetupResult<std::size_t> parse_choice(std::string_view text, std::span<const std
 }
 
 SetupResult<sim::Home> parse_home(std::string_view text) {
-    static constexpr std::array ranges{latitudes, longitudes, altitudes, headings};
+    static constexpr std::array ranges{latitude_range, longitude_range, altitude_range, heading_range};
     static constexpr std::array<std::string_view, 4> names{"latitude", "longitude", "altitude", "heading"};
     const auto values = parse_list(text, ranges, names);
     if (!values) return tl::unexpected(values.error());
@@ -68,7 +69,7 @@ SetupResult<sim::Home> parse_home(std::string_view text) {
 }
 
 SetupResult<sim::Wind> parse_wind(std::string_view text) {
-    static constexpr std::array ranges{speeds, headings, speeds};
+    static constexpr std::array ranges{speed_range, heading_range, speed_range};
     static constexpr std::array<std::string_view, 3> names{"speed", "direction", "gust"};
     const auto values = parse_list(text, ranges, names);
     if (!values) return tl::unexpected(values.error());

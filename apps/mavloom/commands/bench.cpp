@@ -38,15 +38,15 @@ struct BenchOptions {
     bool json = false;
 };
 
-struct ParserInput {
+struct RecordedFrames {
     Bytes frames;  // back to back, as a serial line would carry them
     std::vector<WallTime> times;
 };
 
-SetupResult<ParserInput> read_recording(const std::string& path, const wire::MessageTable& table) {
+SetupResult<RecordedFrames> read_recording(const std::string& path, const wire::MessageTable& table) {
     auto reader = record::TlogReader::open(path, table);
     if (!reader) return tl::unexpected(of_input_file(std::move(reader.error())));
-    ParserInput recording;
+    RecordedFrames recording;
     while (const auto record = reader->next()) {
         const auto bytes = record->frame.bytes();
         recording.frames.insert(recording.frames.end(), bytes.begin(), bytes.end());
@@ -70,7 +70,7 @@ double per_second(int turns, double amount, Work&& work) {
 }
 
 template <class OnFrame>
-void parse_all(const ParserInput& recording, std::size_t chunk, const wire::MessageTable& table, OnFrame&& on_frame) {
+void parse_all(const RecordedFrames& recording, std::size_t chunk, const wire::MessageTable& table, OnFrame&& on_frame) {
     wire::StreamParser parser(table);
     const auto sink = [&](const wire::ParseEvent& event) {
         if (event.kind == wire::ParseEvent::Kind::frame) on_frame(event.frame);
@@ -82,7 +82,7 @@ void parse_all(const ParserInput& recording, std::size_t chunk, const wire::Mess
 }
 
 void print(const BenchOptions& options, std::string_view what, double per_s, std::string_view unit,
-           const ParserInput& recording) {
+           const RecordedFrames& recording) {
     if (options.json) {
         fmt::print(
             "{{\"bench\":\"{}\",\"per_second\":{:.0f},\"unit\":\"{}\",\"frames\":{},\"bytes\":{},\"turns\":{}}}\n",
@@ -94,7 +94,7 @@ void print(const BenchOptions& options, std::string_view what, double per_s, std
     }
 }
 
-Exit bench_parse(const BenchOptions& options, const dialect::Dialect& dialect, const ParserInput& recording) {
+Exit bench_parse(const BenchOptions& options, const dialect::Dialect& dialect, const RecordedFrames& recording) {
     const auto& table = dialect.wire_table();
     std::uint64_t found = 0;
     parse_all(recording, options.chunk, table, [&](const wire::FrameView&) { ++found; });
@@ -111,7 +111,7 @@ Exit bench_parse(const BenchOptions& options, const dialect::Dialect& dialect, c
 
 template <class Append>
 void bench_form(const BenchOptions& options, std::string_view what, const dialect::Dialect& dialect,
-                const ParserInput& recording, Append&& append) {
+                const RecordedFrames& recording, Append&& append) {
     message::TextBuffer out;
     const auto work = [&] {
         std::size_t index = 0;
@@ -124,7 +124,7 @@ void bench_form(const BenchOptions& options, std::string_view what, const dialec
           recording);
 }
 
-Exit bench_decode(const BenchOptions& options, const dialect::Dialect& dialect, const ParserInput& recording) {
+Exit bench_decode(const BenchOptions& options, const dialect::Dialect& dialect, const RecordedFrames& recording) {
     const message::JsonFormatter json(dialect);
     bench_form(options, "decode json", dialect, recording,
                [&](auto& out, const auto& received) { json.append(out, received); });

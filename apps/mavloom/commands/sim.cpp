@@ -201,11 +201,10 @@ Exit simulate(const Common& common, const SimOptions& options) {
     const Signals signals([](void* s) noexcept { static_cast<Simulator*>(s)->wake(); }, simulator->get());
     control::ControlOptions control_options;
     control_options.metrics = scenario->metrics;
+    control_options.on_notice = [&](std::string_view text) { (*simulator)->notify(config::LogLevel::warning, text); };
     const auto control = open_control(common, **simulator, std::move(control_options), scenario->name,
                                       scenario->control_name());
     if (!control) return fail(control.error());
-    if (const auto port = (*control)->metrics_port(); port != 0 && scenario->metrics->port == 0)
-        print_notice(common, fmt::format("metrics at port {}", port));
     log_vehicles(common, *scenario);
     log_ports(common, (*simulator)->links().endpoints());
     fly(*scenario, **simulator);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `mavloom route` is asked to do: its options, and the endpoints of the configuration file and the command line.
+// The plan of `mavloom route`: its options, and the endpoints of the configuration file and the command line.
 #pragma once
 
 #include <string>

@@ -166,8 +166,6 @@ Exit route(const Common& common, const RouteOptions& options) {
     const auto control = open_router_control(common, options, plan->config.ring.name, **router);
     if (!control) return fail(control.error());
     if (auto added = add_endpoints(**router, *plan, true); !added) return fail(added.error());
-    if (const auto port = (*control)->metrics_port(); port != 0 && options.metrics.ends_with(":0"))
-        print_notice(common, fmt::format("metrics on port {}", port));
     return Routing(common, options, *dialect, **router, std::move(*plan), log_level).run(explain);
 }
 

@@ -30,7 +30,7 @@ private:
     const Parameters& parameters_;
 };
 
-constexpr double top_speed = 60, top_length = 1e6;  // m/s; s and m
+constexpr double top_speed = 60, no_limit = 1e6;  // m/s; s or m
 
 FailsafeAction px4_gcs_loss(int value) noexcept {
     using enum FailsafeAction;
@@ -90,30 +90,30 @@ void read_px4_battery(const Reader& read, Tuning& t) {
 }
 
 void read_px4_safety(const Reader& read, Tuning& t) {
-    t.disarm_after_landing = read.number("COM_DISARM_LAND", t.disarm_after_landing, -1, top_length);
-    t.disarm_without_takeoff = read.number("COM_DISARM_PRFLT", t.disarm_without_takeoff, -1, top_length);
+    t.disarm_after_landing = read.number("COM_DISARM_LAND", t.disarm_after_landing, -1, no_limit);
+    t.disarm_without_takeoff = read.number("COM_DISARM_PRFLT", t.disarm_without_takeoff, -1, no_limit);
     t.spool_up = read.number("COM_SPOOLUP_TIME", t.spool_up, 0, 30);
-    t.gcs_loss = read.number("COM_DL_LOSS_T", t.gcs_loss, 1, top_length);
+    t.gcs_loss = read.number("COM_DL_LOSS_T", t.gcs_loss, 1, no_limit);
     t.on_gcs_loss = px4_gcs_loss(read.choice("NAV_DLL_ACT", 0));
     t.offboard_loss = read.number("COM_OF_LOSS_T", t.offboard_loss, 0, 60);
     t.on_offboard_loss = px4_offboard_loss(read.choice("COM_OBL_RC_ACT", 0));
     t.manual_loss = read.number("COM_RC_LOSS_T", t.manual_loss, 0.1, 35);
     t.on_manual_loss = px4_manual_loss(read.choice("NAV_RCL_ACT", 2));
-    t.fence_radius = read.number("GF_MAX_HOR_DIST", 0, 0, top_length);
-    t.fence_height = read.number("GF_MAX_VER_DIST", 0, 0, top_length);
+    t.fence_radius = read.number("GF_MAX_HOR_DIST", 0, 0, no_limit);
+    t.fence_height = read.number("GF_MAX_VER_DIST", 0, 0, no_limit);
     t.on_fence = px4_fence(read.choice("GF_ACTION", 2));
     t.may_inject_failures = read.choice("SYS_FAILURE_EN", 0) == 1;
     t.needs_position_to_arm = read.choice("COM_ARM_WO_GPS", 1) != 2;
 }
 
 void read_px4_navigation(const Reader& read, Tuning& t) {
-    t.takeoff_altitude = read.number("MIS_TAKEOFF_ALT", t.takeoff_altitude, 0.5, top_length);
-    t.acceptance_radius = read.number("NAV_ACC_RAD", t.acceptance_radius, 0.05, top_length);
+    t.takeoff_altitude = read.number("MIS_TAKEOFF_ALT", t.takeoff_altitude, 0.5, no_limit);
+    t.acceptance_radius = read.number("NAV_ACC_RAD", t.acceptance_radius, 0.05, no_limit);
     t.loiter_radius = read.number("NAV_LOITER_RAD", t.loiter_radius, -10000, 10000);
-    t.return_altitude = read.number("RTL_RETURN_ALT", t.return_altitude, 0, top_length);
-    t.return_descend_altitude = read.number("RTL_DESCEND_ALT", t.return_descend_altitude, 0, top_length);
-    t.return_land_delay = read.number("RTL_LAND_DELAY", 0, -1, top_length);
-    t.return_min_distance = read.number("RTL_MIN_DIST", t.return_min_distance, 0.5, top_length);
+    t.return_altitude = read.number("RTL_RETURN_ALT", t.return_altitude, 0, no_limit);
+    t.return_descend_altitude = read.number("RTL_DESCEND_ALT", t.return_descend_altitude, 0, no_limit);
+    t.return_land_delay = read.number("RTL_LAND_DELAY", 0, -1, no_limit);
+    t.return_min_distance = read.number("RTL_MIN_DIST", t.return_min_distance, 0.5, no_limit);
     t.return_cone = to_radians(read.number("RTL_CONE_ANG", 45, 0, 90));
     t.follow_distance = read.number("FLW_TGT_DST", t.follow_distance, 1, 1000);
     t.follow_height = read.number("FLW_TGT_HT", t.follow_height, 1, 1000);
@@ -194,8 +194,8 @@ FailsafeAction ardupilot_gcs_loss(Kind kind, int enabled, int action) noexcept {
 void read_ardupilot_fence(const Reader& read, Kind kind, Tuning& t) {
     using enum FailsafeAction;
     const int type = read.choice("FENCE_ENABLE", 0) == 1 ? read.choice("FENCE_TYPE", 7) : 0;
-    if ((type & 1) != 0 && kind != Kind::rover) t.fence_height = read.number("FENCE_ALT_MAX", 100, 0, top_length);
-    if ((type & 2) != 0) t.fence_radius = read.number("FENCE_RADIUS", 300, 0, top_length);
+    if ((type & 1) != 0 && kind != Kind::rover) t.fence_height = read.number("FENCE_ALT_MAX", 100, 0, no_limit);
+    if ((type & 2) != 0) t.fence_radius = read.number("FENCE_RADIUS", 300, 0, no_limit);
     switch (read.choice("FENCE_ACTION", 1)) {
         case 0: t.on_fence = warn; break;
         case 2: t.on_fence = kind == Kind::quad ? land : hold; break;
@@ -207,8 +207,8 @@ void read_ardupilot_fence(const Reader& read, Kind kind, Tuning& t) {
 // In Guided, ArduPilot does not leave the mode when set-points end: the vehicle stops.
 void read_ardupilot_safety(const Reader& read, Kind kind, Tuning& t) {
     using enum FailsafeAction;
-    t.gcs_loss = kind == Kind::plane ? read.number("FS_LONG_TIMEOUT", 5, 1, top_length)
-                                     : read.number("FS_GCS_TIMEOUT", 5, 1, top_length);
+    t.gcs_loss = kind == Kind::plane ? read.number("FS_LONG_TIMEOUT", 5, 1, no_limit)
+                                     : read.number("FS_GCS_TIMEOUT", 5, 1, no_limit);
     const int enabled = kind == Kind::plane ? read.choice("FS_GCS_ENABL", 0) : read.choice("FS_GCS_ENABLE", 0);
     const int action = kind == Kind::plane ? read.choice("FS_LONG_ACTN", 0) : read.choice("FS_ACTION", 2);
     t.on_gcs_loss = ardupilot_gcs_loss(kind, enabled, action);
@@ -257,11 +257,11 @@ void read_ardupilot_plane(const Reader& read, Tuning& t) {
     t.climb_speed = t.takeoff_speed = read.number("TECS_CLMB_MAX", 5, 0.5, top_speed);
     t.descent_speed = read.number("TECS_SINK_MIN", 2, 0.5, top_speed);
     t.max_tilt = to_radians(read.number("ROLL_LIMIT_DEG", 45, 10, 80));
-    t.takeoff_altitude = read.number("TKOFF_ALT", 50, 1, top_length);
+    t.takeoff_altitude = read.number("TKOFF_ALT", 50, 1, no_limit);
     t.acceptance_radius = read.number("WP_RADIUS", 90, 1, 32767);
     t.altitude_acceptance = 10;
     t.loiter_radius = read.number("WP_LOITER_RAD", 60, -32767, 32767);
-    t.return_altitude = t.return_descend_altitude = read.number("RTL_ALTITUDE", 100, 0, top_length);
+    t.return_altitude = t.return_descend_altitude = read.number("RTL_ALTITUDE", 100, 0, no_limit);
     t.return_land_delay = -1;
     t.disarm_after_landing = read.number("LAND_DISARMDELAY", 20, 0, 127);
     t.disarm_without_takeoff = -1;

@@ -195,8 +195,7 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_serial(Opening opening) {
     auto opened = std::make_unique<Serial>(opening);
     auto done = opened->open();
     if (done) return opened;
-    const bool required = endpoint.options.required && !opening.core.has_begun();
-    if (done.error().code != SetupCode::not_found || required)
+    if (done.error().code != SetupCode::not_found || opening.is_required())
         return tl::unexpected(std::move(done.error()).within(endpoint.label()));
     opened->fail(done.error());
     return opened;

@@ -120,8 +120,7 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_udpmcast(Opening opening) {
     auto done = opened->join();
     if (done) return opened;
     const bool may_come = done.error().code == SetupCode::not_found || done.error().code == SetupCode::unreachable;
-    const bool required = endpoint.options.required && !opening.core.has_begun();
-    if (required || !may_come) return tl::unexpected(std::move(done.error()).within(endpoint.label()));
+    if (opening.is_required() || !may_come) return tl::unexpected(std::move(done.error()).within(endpoint.label()));
     opened->fail(done.error());
     return opened;
 }

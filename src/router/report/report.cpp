@@ -13,9 +13,8 @@ namespace {
 
 using control::append_line;
 using control::Json;
+using control::seconds;
 using Shared = std::shared_ptr<Snapshot>;
-
-double seconds(Nanoseconds time) { return std::chrono::duration<double>(time).count(); }
 
 AppendRow router_line(const Snapshot& s) {
     return once([&s](std::string& text) {
@@ -75,13 +74,9 @@ AppendRow route_lines(const Snapshot& s) {
     });
 }
 
-AppendRow end_line() {
-    return once([](std::string& text) { append_line(text, {{"ok", true}}); });
-}
-
 Report report_of(Router& router, const Shared& s, std::vector<AppendRow> lists) {
     lists.insert(lists.begin(), once([&s = *s](std::string&) { s.sort(); }));
-    lists.push_back(end_line());
+    lists.push_back(once(control::append_ok));
     return {.copy_more = copying(router, s),
             .next_text = [s, pieces = Pieces(std::move(lists))]() mutable { return pieces(); }};
 }

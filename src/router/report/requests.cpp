@@ -21,9 +21,7 @@ Report add(Router& router, const std::string& url) {
 
 // Removes an endpoint, a recording or a link by its name.
 Report remove(Router& router, const std::string& name) {
-    if (!router.remove(name))
-        return control::failed(fmt::format(
-            "there is no endpoint {}, and no link of that name that could be closed; `links` lists them", name));
+    if (!router.remove(name)) return control::nothing_to_remove(name);
     router.notify(config::LogLevel::info, name + ": removed by ctl");
     return control::succeeded();
 }
@@ -54,8 +52,7 @@ SetupResult<endpoint::Endpoint> parse_router_endpoint(std::string_view text) {
 }
 
 Report answer_request(Router& router, std::string_view request) {
-    return control::answer_request(router, request, commands,
-                                   [](std::string_view name) { return fmt::format("there is no command '{}'", name); });
+    return control::answer_request(router, request, commands);
 }
 
 Report Router::answer(std::string_view request) { return answer_request(*this, request); }

@@ -525,7 +525,7 @@ def test_ctl_chooses_a_vehicle(sim, station, ctl):
     (("state", "now"), 2, "state takes no argument"),
     (("stats", "--system", "1"), 2, "--system is not for stats"),
     (("state", "--force"), 2, "--force is for arm and disarm"),
-    (("routes",), 1, "a simulator has no command 'routes'"),
+    (("routes",), 1, "there is no command 'routes'"),
     (("stat",), 2, ""),
 ])
 def test_ctl_refusals(sim, station, ctl, tmp_path, args, status, text):
@@ -577,7 +577,7 @@ def test_stat_reads_the_page_of_a_stopped_simulator(sim, station, ctl):
 def test_stats_and_metrics_have_the_same_counters(sim, station, ctl):
     client, url = station
     running = sim("--to", url, "--metrics", "127.0.0.1:0")
-    port = int(running.wait_output(r"metrics at port (\d+)", stream="err")[1])
+    port = int(running.wait_output(r"metrics on port (\d+)", stream="err")[1])
     client.until(HEARTBEAT)
     rows = objects(ctl(running, "stats"))
     text = urllib.request.urlopen(f"http://127.0.0.1:{port}/metrics", timeout=harness.DEFAULT_TIMEOUT_S).read().decode()

@@ -3,6 +3,7 @@
 #include "mavloom/simserve/simulator.hpp"
 
 #include <arpa/inet.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -91,6 +92,14 @@ TEST_F(SimulatorTest, BadRequestsAreAnswered) {
         EXPECT_THAT(lines, testing::StartsWith(R"({"ok":false,"error":")")) << request;
         EXPECT_EQ(std::ranges::count(lines, '\n'), 1) << request;
     }
+}
+
+TEST_F(SimulatorTest, AValueOfTheWrongTypeChangesNothing) {
+    const auto error = [](std::string_view text) { return fmt::format("{{\"ok\":false,\"error\":\"{}\"}}\n", text); };
+    EXPECT_EQ(answer(R"({"cmd":"param","name":"MIS_TAKEOFF_ALT","value":"20"})"), error("'value' is not a number"));
+    EXPECT_EQ(answer(R"({"cmd":"arm","system":"1"})"), error("'system' is not a number"));
+    EXPECT_EQ(answer(R"({"cmd":"arm","force":1})"), error("'force' is neither true nor false"));
+    EXPECT_EQ(answer(R"({"cmd":"arm","system":7})"), error("there is no vehicle 7"));
 }
 
 }  // namespace
