@@ -74,6 +74,10 @@ RC_GTEST_PROP(Tlog, WhatWasWrittenIsRead, ()) {
     RC_ASSERT(reader->counters().lost_bytes.value() == 0u);
 }
 
+auto is_one_of(const std::vector<Sample>& recording) {
+    return [&recording](const Sample& sample) { return std::ranges::find(recording, sample) != recording.end(); };
+}
+
 // Some bytes are overwritten, taken out or put in. Every record that overlaps none of that is found, in order, and
 // every byte is accounted for.
 RC_GTEST_PROP(Tlog, DamageLosesOnlyWhatItTouches, ()) {
@@ -110,6 +114,8 @@ RC_GTEST_PROP(Tlog, DamageLosesOnlyWhatItTouches, ()) {
     auto next = found.begin();
     for (const auto& sample : intact) {
         next = std::find(next, found.end(), sample);
+        // One damaged record in 65,536 has a good checksum by chance. It may reach into the intact one behind it.
+        if (next == found.end() && !std::ranges::all_of(found, is_one_of(recording))) RC_DISCARD("a good checksum");
         RC_ASSERT(next != found.end());
         ++next;
     }
