@@ -94,7 +94,7 @@ TEST_F(SimulatorTest, BadRequestsAreAnswered) {
     }
 }
 
-TEST_F(SimulatorTest, AValueOfTheWrongTypeChangesNothing) {
+TEST_F(SimulatorTest, AValueOfTheWrongTypeIsAnError) {
     const auto error = [](std::string_view text) { return fmt::format("{{\"ok\":false,\"error\":\"{}\"}}\n", text); };
     EXPECT_EQ(answer(R"({"cmd":"param","name":"MIS_TAKEOFF_ALT","value":"20"})"), error("'value' is not a number"));
     EXPECT_EQ(answer(R"({"cmd":"arm","system":"1"})"), error("'system' is not a number"));
