@@ -8,6 +8,7 @@ headers, sources: the compiler's warnings, over each public header or each sourc
 
 The exit status is 1 if there is a finding."""
 import concurrent.futures
+import functools
 import json
 import os
 import pathlib
@@ -19,6 +20,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 TOPS = ("src", "apps", "tools", "python/src")
 FILES_A_UNIT = 70
+INCLUDE = re.compile(r'^#include "(.+)"', re.MULTILINE)
 
 
 def passed(command: list[str], folder: pathlib.Path) -> bool:
@@ -89,20 +91,48 @@ def compiler(entry: dict[str, str]) -> list[str]:
     return [*options_of(entry), "-fsyntax-only", "-Werror"]
 
 
+def public_headers(build: pathlib.Path) -> dict[str, pathlib.Path]:
+    """By the name in #include: all headers of the library, and a few of messages, which all come from one template."""
+    headers = {}
+    for top in ROOT / "include", build / "generated/include":
+        found = sorted(top.glob("mavloom/**/*.hpp")) or sys.exit(f"{top}: there are no headers to check")
+        headers |= {str(path.relative_to(top)): path for number, path in enumerate(found)
+                    if "msg" not in path.parts or number % 40 == 0}
+    return headers
+
+
+def includes_of(headers: dict[str, pathlib.Path]) -> dict[str, set[str]]:
+    """The names of the headers that each includes, directly or not."""
+    direct = {name: set(INCLUDE.findall(path.read_text())) & headers.keys() for name, path in headers.items()}
+
+    @functools.cache
+    def reached(name: str) -> set[str]:
+        return direct[name].union(*map(reached, direct[name]))
+    return {name: reached(name) for name in headers}
+
+
+def chains_of(headers: dict[str, pathlib.Path]) -> list[list[str]]:
+    """The headers in chains. A header includes all headers before it in its chain, so it sees what it sees alone."""
+    includes, chains = includes_of(headers), []
+    for name in sorted(headers, key=lambda name: len(includes[name])):
+        fitting = [chain for chain in chains if chain[-1] in includes[name]]
+        if fitting:
+            max(fitting, key=lambda chain: len(includes[chain[-1]])).append(name)
+        else:
+            chains.append([name])
+    return chains
+
+
 def check_headers(build: pathlib.Path) -> bool:
-    """A source of the header's module has the options. Generated headers of messages all come from one template."""
+    """A source of the last header's module has the options."""
     module_in = re.compile(r"/mavloom_([a-z]+)(_cold|_core)?\.dir/")
     options = {found[1]: compiler(entry) for entry in compile_commands(build)
                if (found := module_in.search(entry["command"]))}
-    commands = []
-    for top in ROOT / "include/mavloom", build / "generated/include/mavloom":
-        headers = sorted(top.rglob("*.hpp")) or sys.exit(f"{top}: there are no headers to check")
-        for number, header in enumerate(headers):
-            folder = header.relative_to(top).parts[0]
-            if folder == "msg" and number % 40:
-                continue
-            module = "message" if folder == "msg" else folder
-            commands.append([*options[module], "-include", str(header), "-x", "c++", "/dev/null"])
+    headers, commands = public_headers(build), []
+    for chain in chains_of(headers):
+        module = chain[-1].split("/")[1].replace("msg", "message")
+        included = [word for name in chain for word in ("-include", str(headers[name]))]
+        commands.append([*options[module], *included, "-x", "c++", "/dev/null"])
     return all_passed(commands, build)
 
 

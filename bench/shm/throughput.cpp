@@ -2,6 +2,7 @@
 // shm_throughput ring|ring32|bare|udp READERS threads|processes RECORDS [FLIGHT.tlog [verify]]
 // Measures how many records per second go from one writer to READERS lossless readers. Records have 64 bytes, or are
 // the frames of FLIGHT.tlog. ring32 is a ring of 32 MiB. Prints the records and the seconds they took.
+#include <algorithm>
 #include <string_view>
 
 #include "bare_transport.hpp"
@@ -40,9 +41,11 @@ static int run(std::string_view transport, const Records& records, const Plan& p
 
 int main(int argc, char** argv) {
     if (argc < 5) return 2;
+    const std::uint64_t count = std::strtoull(argv[4], nullptr, 10);
     const Plan plan{.readers = static_cast<unsigned>(std::atoi(argv[2])),
                     .processes = std::string_view(argv[3]) == "processes",
-                    .records = std::strtoull(argv[4], nullptr, 10)};
+                    .records = count,
+                    .before = std::min<std::uint64_t>(1'000'000, 2 * count)};
     if (plan.readers < 1 || plan.readers > most_readers) return 2;
     if (argc == 5) return run(argv[1], NumberedRecords(), plan);
     const auto frames = frames_of(argv[5]);
