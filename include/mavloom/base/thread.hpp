@@ -10,8 +10,8 @@
 
 namespace mavloom {
 
-// Blocks all signals except those of faults in the calling thread for as long as this object lives. A thread started
-// during that time inherits the signal mask.
+// While this object lives, the calling thread blocks all signals except those that report its own faults. A thread
+// started during that time inherits the signal mask.
 class BlockedSignals {
 public:
     BlockedSignals() noexcept {

@@ -89,7 +89,8 @@ struct PlacedEndpoint {
     Section section;  // all options as text, with their origins
 };
 // Reads an [[endpoint]] table. It gives the place as `url`, or as `scheme` with `host` and `port`, `path` or `ring`.
-// The options of the scheme are further keys. Refuses an endpoint whose name one of the `earlier` sections has.
+// The options of the scheme are further keys. Refuses an endpoint that has the same name as one of the `earlier`
+// sections.
 [[nodiscard]] SetupResult<PlacedEndpoint> read_endpoint(const Document& document, const Table& table,
                                                         std::span<const Section> earlier);
 

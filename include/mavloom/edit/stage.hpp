@@ -45,7 +45,7 @@ struct Counters {
     Counter frames;            // input frames, forward direction
     Counter reencoded;         // decoded and encoded again
     Counter rewrapped;         // new header, original payload: the definition is missing or does not cover the payload
-    Counter passed_untouched;  // forwarded as it came: unknown id, not canonical, or signed
+    Counter passed_untouched;  // forwarded as it came: unknown id, signed, or encoded in an unusual way
     Counter filtered;          // dropped by `only`
     Counter rate_limited;      // dropped by `max_rate`
     Counter not_v1;      // dropped because MAVLink 1 cannot carry it: id over 255, or no definition for the conversion

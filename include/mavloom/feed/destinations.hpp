@@ -63,7 +63,7 @@ public:
     // One entry for each live endpoint, in the order of `open`.
     [[nodiscard]] std::vector<Delivery> deliveries() const;
     [[nodiscard]] std::span<const record::RotatingWriter> files() const noexcept { return files_; }
-    // Whether a live endpoint lost frames: dropped, refused, without a peer, or still queued.
+    // Whether a live endpoint lost frames (Delivery::lost_any()).
     [[nodiscard]] bool lost_any() const;
     // True if there are no files and no frame was sent to any peer.
     [[nodiscard]] bool reached_no_destination() const;

@@ -40,7 +40,8 @@ class Hub {
 public:
     // Returns the hub that is running, or a new one.
     [[nodiscard]] static SetupResult<std::shared_ptr<Hub>> get();
-    // Ends every loop thread and closes its channels. Later calls on a stopped hub fail or do nothing.
+    // Ends the loop threads of all hubs, also of those that were replaced by a new one, and closes their channels.
+    // Later calls on a stopped hub fail or do nothing.
     static void stop_all();
 
     Hub(const Hub&) = delete;

@@ -48,7 +48,7 @@ public:
                                                     double default_speed = record::Pacer::max_speed,
                                                     Nanoseconds skip = {});
 
-    // Calls for a single ring. `ring` is the id that `add_ring` returned.
+    // Functions for one ring. `ring` is the id that `add_ring` returned.
     // - `remove_ring` closes the ring and its inlet; do not call it inside a callback.
     // - `hold_ring` pauses reading while the consumer has no room for more frames.
     // - `inlet` returns the endpoint of the ring's inlet and opens it at the first call.

@@ -24,8 +24,8 @@ struct LinkCounters {
     // Frames whose loss is not computed, because the tracker has no room for a further sender.
     Counter untracked;
     Counter frames_not_sent;  // in datagrams that the kernel rejected
-    // Frames sent to a closed port. These are frames that an ICMP refusal answered, and frames sent in the second after
-    // a refusal while the peer is silent.
+    // Frames sent to a closed port. These are frames that an ICMP refusal answered, and frames sent within one second
+    // of a refusal while the peer is silent.
     Counter refused;
     // Frames not sent to a UDP peer that was heard only once: its address may be forged (docs/design/security.md).
     Counter unconfirmed;
@@ -74,9 +74,9 @@ struct EndpointCounters {
     // frame).
     Counter stray_bytes;
     // New peers turned away, for one of two reasons (docs/guide/queues.md). Either max_peers is reached and no peer may
-    // be evicted, or a flood of new addresses sends.
+    // be evicted, or too many new addresses send at once.
     Counter peers_refused;
-    Counter peers_limited;    // new peers turned away although they sent again, because too many did
+    Counter peers_limited;    // new peers turned away when they tried again, because too many tried again
     Counter peers_evicted;    // peers that were heard once or were idle, evicted for new ones
     Counter peers_displaced;  // active peers that were evicted for new ones (docs/guide/queues.md)
     // Datagrams that the kernel rejected, or for which ICMP reported a closed port.

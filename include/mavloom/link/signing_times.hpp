@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Keeps the last time that was signed with a key in KEYFILE.state, for a program that signs outside of an endpoint's
-// `sign=`. Endpoints with this key use the same file. Source: MAVLink guide, "Message Signing": the timestamp must be
-// stored and must never go back.
+// Stores the last timestamp that was signed with a key, for a program that signs without an endpoint's `sign=`. The
+// file is KEYFILE.state, which endpoints with this key use too. Source: MAVLink guide, "Message Signing": the timestamp
+// must be stored and must never go back.
 #pragma once
 
 #include <filesystem>
@@ -29,8 +29,9 @@ public:
 
     // The last time that was signed with the key. The next signature must have a later time.
     [[nodiscard]] wire::SigningTime last() const noexcept;
-    // Records the last time that was signed. Call it often: it saves the time every 2 s, with a reserve. A program that
-    // was killed and restarted then never signs the same time twice. `notices` receives errors of earlier writes.
+    // Records the last time that was signed. Call it often: every 2 s, it saves a time that is 10 s later than `last`.
+    // So a program that was killed and restarted never signs the same time twice. `notices` receives errors of earlier
+    // writes.
     void keep(wire::SigningTime last, MonoTime now, std::vector<std::string>& notices);
 
 private:

@@ -101,8 +101,8 @@ private:
     static constexpr std::size_t kept_capacity = 65536, kept_entries = 2048;
     // From these sizes on, memory matters more than the time to close gaps.
     static constexpr std::size_t large_bytes = 262'144, large_blocks = 8192;
-    // After this many small uses in a row, the queue frees memory beyond `kept_capacity`: it came from a burst, not
-    // from steady traffic.
+    // When the queue has run empty this many times in a row and needed little each time, it frees memory beyond
+    // `kept_capacity`. A burst needed that memory, not steady traffic.
     static constexpr std::uint8_t rests_after = 255;
 
     Pushed push_when_full(ByteView block, std::uint8_t block_class, std::uint64_t key, MonoTime now);

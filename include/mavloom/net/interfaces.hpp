@@ -24,7 +24,8 @@ class OwnAddresses {
 public:
     // Returns whether `address` is one of this machine's. Ignores the port.
     [[nodiscard]] bool contains(const Address& address, MonoTime now);
-    // Returns whether `address` is a broadcast address of one of this machine's networks, or of all. Ignores the port.
+    // Returns whether `address` is a broadcast address: that of one of this machine's networks, or 255.255.255.255.
+    // Ignores the port.
     [[nodiscard]] bool has_broadcast(const Address& address, MonoTime now);
 
 private:

@@ -24,11 +24,13 @@ inline constexpr const char* run_variable = "MAVLOOM_RUN";
 [[nodiscard]] SetupResult<std::filesystem::path> run_path(std::string_view name, std::string_view suffix,
                                                           std::string_view what);
 
-// Connects to the first socket NAME.SUFFIX in these folders that a program of any user serves. If none is served,
-// returns the reason why an existing socket cannot be used, or `not_found` if there is no socket. Creates nothing.
+// Connects to the first socket NAME.SUFFIX that a program of any user serves. Looks in $MAVLOOM_RUN if set, otherwise
+// in both other folders. If none is served, returns the reason why an existing socket cannot be used, or `not_found` if
+// there is no socket. Creates nothing.
 [[nodiscard]] SetupResult<LocalSender> connect_in_run_folder(std::string_view name, std::string_view suffix);
 
-// Returns the user who owns the first of these folders that exists. Empty if none exists; creates nothing.
+// Returns the owner of the first existing folder in which `connect_in_run_folder` looks. Empty if none exists; creates
+// nothing.
 [[nodiscard]] std::optional<uid_t> run_folder_owner();
 
 }  // namespace mavloom::net

@@ -65,8 +65,8 @@ public:
     // The file's size when it was opened; 0 for a pipe.
     [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
     [[nodiscard]] const ReadCounters& counters() const noexcept { return counters_; }
-    // Call it at the end of the file. Returns true if no record was found, and the file is longer than one record that
-    // was cut off. Such a file is not a recording.
+    // Call it at the end of the file. Returns true if no record was found and the file is too long to be one cut-off
+    // record. Such a file is not a recording.
     [[nodiscard]] bool found_no_record() const noexcept {
         return counters_.records.value() == 0 && counters_.unknown_flags.value() == 0 &&
                counters_.lost_bytes.value() > max_record_length;

@@ -52,8 +52,8 @@ public:
     struct OfRing {
         std::uint64_t records = 0, dropped = 0;
     };
-    // Copies the current counters into the page. `inlet`: which of the endpoints is the ring's inlet. `own`: at most
-    // `most_own` counts, the same ones in each call.
+    // Copies the current counters into the page. `inlet`: the endpoint that is the ring's inlet, the socket through
+    // which readers of the ring send frames. `own`: at most `most_own` counts, the same ones in each call.
     void refresh(const std::vector<link::LinkInfo>& links, const std::vector<link::EndpointInfo>& endpoints,
                  std::optional<link::EndpointId> inlet, const OfRing& ring, std::span<const OwnCount> own = {});
     // See CounterPage::set_aside().

@@ -42,8 +42,8 @@ struct RingLosses {
 
 class RingSource {
 public:
-    // Answers are sent through `links`, with the queue rules of `dialect` if it is given. `table`, `ids`, `links` and
-    // `dialect` must outlive the object.
+    // `send` uses `links`, with the queue rules of `dialect` if it is given. `table`, `ids`, `links` and `dialect` must
+    // outlive the object.
     RingSource(const endpoint::Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids,
                link::Links& links, Copies copies, const dialect::Dialect* dialect = nullptr);
     RingSource(const RingSource&) = delete;
@@ -65,7 +65,8 @@ public:
     // Pauses reading while `held` is true, because the consumer has no room for more frames.
     void hold(bool held) noexcept { held_ = held; }
 
-    // Sends a frame to the ring's inlet. Returns true if it was accepted.
+    // Sends a frame to the ring's inlet, the socket through which readers send frames to the ring's writer. Returns
+    // true if it was accepted.
     bool send(const wire::FrameView& frame);
     // Returns the inlet's endpoint; the first call opens it. If that fails, every later call returns the same error.
     [[nodiscard]] SetupResult<link::EndpointId> inlet();

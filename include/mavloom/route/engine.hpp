@@ -34,7 +34,8 @@ struct Options {
     UnknownTarget unknown_target = UnknownTarget::drop;
     Nanoseconds route_timeout = std::chrono::seconds{60};
     std::optional<Source> own{};  // the program's own id; frames targeted at exactly this id are not forwarded
-    // How many frames to remember, to detect copies and echoes. Rounded up to a power of two and limited to 8 MiB.
+    // How many frames to remember, to detect copies and echoes. The number is rounded up to a power of two. Their table
+    // takes at most 8 MiB.
     std::size_t recent_frames = 1u << 16;
     // Seeds the frame hash. With a random seed, a hostile sender cannot forge frames that the engine would take for
     // copies of other frames.
@@ -72,7 +73,7 @@ enum class Verdict : std::uint8_t {
     nowhere,         // no other link qualifies, for example if the target is on the link where the frame arrived
     filtered,        // dropped by the input filter, or by the output filter of every candidate link
     rate_limited,    // dropped by max_rate or max_bytes of every candidate link
-    duplicate,       // already received in the group or within `dedup`, or a copy that was already sent everywhere
+    duplicate,       // already received in the group or within `dedup`, or a copy that no further link should get
     echo,            // returned on a link that it had been sent to
     unknown_target,  // targeted at an unknown system or component
     consumed,        // targeted at the program's own id
@@ -170,7 +171,8 @@ public:
     // A vehicle that is alive on one link is learned on another only after it was heard there for this long, without a
     // gap of `alive_for`.
     static constexpr Nanoseconds consistent_for = std::chrono::seconds{5};
-    // A source is present on a link if it was heard there at least twice, this far apart, and within `present_for`.
+    // A source is present on a link if it was heard there at least twice, this far apart, and last within `present_for`
+    // before now.
     static constexpr Nanoseconds repeated_after = std::chrono::milliseconds{500};
     static constexpr Nanoseconds present_for = std::chrono::seconds{3};
     // How long the engine detects echoes and copies of a frame. It remembers frames longer if `dedup` is longer.

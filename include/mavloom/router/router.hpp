@@ -91,8 +91,8 @@ public:
     // Runs one turn of the links, which waits until `deadline` at most. Then runs one piece of posted work and the
     // periodic tasks that are due.
     void turn(MonoTime deadline);
-    // Handles frames that have already arrived and sends queued frames, both together for at most `limit` and one turn.
-    // Then closes the recordings and removes the ring.
+    // Handles frames that have already arrived and sends queued frames. This takes at most `limit`, and then the rest
+    // of a turn. Then closes the recordings and removes the ring.
     void finish(Nanoseconds limit);
 
     // Async-signal-safe.

@@ -43,8 +43,8 @@ struct CounterPageOptions {
 
 class CounterPage {
 public:
-    // Creates the page, or replaces one whose owner is gone. Errors: `in_use` names the process if the owner is alive;
-    // `no_space` is returned before anything is created.
+    // Creates the page, or replaces one whose owner is gone. Errors: `in_use` if the owner is alive; the text names its
+    // process. `no_space` before anything is created.
     [[nodiscard]] static SetupResult<CounterPage> create(std::string_view name, const CounterPageOptions& options = {});
     CounterPage(CounterPage&& other) noexcept;
     CounterPage& operator=(CounterPage&& other) noexcept;
@@ -93,8 +93,8 @@ struct CounterSnapshot {
     std::map<LinkId, std::string> links;
 };
 
-// Reads a page. Each value is from some moment during the call. Errors as for rings: `not_found`, `bad_input`,
-// `permission`, also for a page that is not trusted.
+// Reads a page. Each value is from some moment during the call. Errors as for rings: `not_found`, `bad_input` or
+// `permission`. A page that is not trusted is also `permission`.
 [[nodiscard]] SetupResult<CounterSnapshot> read_counters(std::string_view name, const Trust& trust = {});
 
 }  // namespace mavloom::shm

@@ -46,7 +46,7 @@ class RingReader {
 public:
     // Opens a ring for reading. Errors:
     // - `not_found` if there is no such ring; the text lists the existing rings.
-    // - `in_use` for a 65th lossless reader.
+    // - `in_use` for a lossless reader if 64 other readers are registered.
     // - `permission` if access is denied or the ring is not trusted.
     // - `bad_input` if the file is not a ring of this version.
     [[nodiscard]] static SetupResult<RingReader> open(std::string_view name, const ReaderOptions& options = {});

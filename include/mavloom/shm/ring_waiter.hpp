@@ -27,7 +27,7 @@ public:
     // polls.
     static constexpr std::size_t most_rings = 127;
 
-    // The helper thread calls `wake` once after each arm(). `wake` must not throw, and may call arm().
+    // After arm(), the helper thread calls `wake` once. `wake` must not throw, and may call arm().
     explicit RingWaiter(std::function<void()> wake);
     RingWaiter(const RingWaiter&) = delete;
     RingWaiter& operator=(const RingWaiter&) = delete;
@@ -36,8 +36,8 @@ public:
     // Replaces the watched rings. Changes between this call and arm() are not missed.
     void watch(std::vector<WakeWord> rings);
     // Requests one call of `wake` at the next change of any ring. A change since the last call of `wake` may trigger it
-    // at once. With `longest`, as returned by RingReader::arm(), `wake` is also called when that time is over. Of
-    // several such calls, the earliest time counts.
+    // at once. With `longest`, as returned by RingReader::arm(), `wake` is also called when that time is over. If
+    // arm(longest) is called several times, the earliest time counts.
     void arm() noexcept;
     void arm(Nanoseconds longest) noexcept;
     void disarm() noexcept;

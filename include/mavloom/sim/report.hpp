@@ -11,8 +11,8 @@
 
 namespace mavloom::sim {
 
-// Histogram of how late messages were sent. Each bucket ends at twice the time of the one before: 10 us, 20 us, 40 us
-// ... 5 s. The last one counts all later messages.
+// Histogram of the delays with which messages were sent. Each bucket ends at twice the time of the one before: 10 us,
+// 20 us, 40 us ... 5 s. The last one counts all messages with a longer delay.
 struct Lateness {
     static constexpr std::size_t buckets = 21;
     std::array<std::uint32_t, buckets> counts{};

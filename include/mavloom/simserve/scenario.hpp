@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scenario: which vehicles a simulator has, where they are, and where they send. It comes from a TOML file, from the
-// environment and from options, in this order of precedence: default, file, environment, option.
+// A scenario: which vehicles a simulator has, where they are, and where they send. Its values come from defaults, a
+// TOML file, the environment and options; each of these overrides those before it.
 //
 // The keys are in docs/guide/sim.md. An unknown section, key or value is an error that states its place and the nearest
 // known spelling. Plain values; reading allocates.

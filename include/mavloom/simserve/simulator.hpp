@@ -78,7 +78,8 @@ public:
     Simulator& operator=(const Simulator&) = delete;
     ~Simulator() override;
 
-    // Set-up: call the following functions before the first turn, in this order.
+    // Set-up. Before the first turn, call in this order: open_ring() and open_inlet(), or open_page(); then add() for
+    // each vehicle; then add() for each endpoint.
 
     // Opens a ring of the simulator's own, which programs read as shm://NAME. The ring is a link: it contains
     // everything that the vehicles send on that link. The ring's counter page has the simulator's counters.

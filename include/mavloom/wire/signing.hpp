@@ -88,7 +88,8 @@ private:
 class Verifier {
 public:
     static constexpr std::size_t max_streams = 1024;
-    // A new stream may be at most this much behind the current time, or behind the newest accepted timestamp.
+    // The first frame of a stream is refused if it is more than this behind the current time, or behind the newest
+    // accepted timestamp.
     static constexpr std::uint64_t first_tolerance_ticks = 60 * 100'000;
 
     enum class Verdict : std::uint8_t {

@@ -74,7 +74,7 @@ public:
         scanner_.end_junk(sink);
     }
 
-    // When to call `tick`; empty while no bytes are held back.
+    // When to call `tick`. Empty while no bytes are held back, or if `tick` has already examined them.
     [[nodiscard]] std::optional<MonoTime> deadline() const noexcept {
         if (begin_ == end_ || settled_) return std::nullopt;
         return last_byte_ + hold_;

@@ -30,10 +30,10 @@ public:
 
     // Judges the frame; learns nothing.
     [[nodiscard]] Verdict judge(const FrameView& frame) const noexcept;
-    // Learns from a frame that was accepted, or that was rejected only because it disagrees with the confirmed byte.
-    // Returns true if the caller should accept the frame. Returns false if no CRC_EXTRA fits, or if the one that fits
-    // differs from the confirmed byte. After `confirmations` frames that agree on another byte, that byte becomes the
-    // confirmed one.
+    // Learns from a frame that `judge` accepted, or rejected only because it disagrees with the confirmed byte. Returns
+    // true if the caller should accept the frame. Returns false if no CRC_EXTRA fits, or if the one that fits differs
+    // from the confirmed byte. After `confirmations` frames that agree on another byte, that byte becomes the confirmed
+    // one.
     bool learn(const FrameView& frame) noexcept;
 
     [[nodiscard]] std::size_t size() const noexcept { return entries_.size(); }

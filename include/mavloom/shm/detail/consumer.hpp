@@ -178,7 +178,7 @@ public:
         return (ring_.control->sleepers.fetch_or(bit(), std::memory_order_seq_cst) & bit()) != 0;
     }
     // Returns whether there is something that next() has not looked at. Call it after fall_asleep(): later commits then
-    // see the bit. The exception is a commit within `wake_distance` (see sleep()).
+    // see the bit, except perhaps during the first `wake_distance` (see sleep()).
     [[nodiscard]] bool more_waits() const noexcept {
         return ring_.control->tail.load(std::memory_order_seq_cst) != tail_ || retired();
     }

@@ -128,9 +128,10 @@ public:
     }
 
     // Wakes all sleeping readers, at most once per `wake_distance`. If the last wake-up is more recent than that, does
-    // nothing. Every sleeping reader has then set its bit after that wake-up. It wakes by itself, because its first
-    // sleep with the bit set lasts at most `wake_distance` (Consumer::sleep()). For the same reason, commit() need not
-    // order its load of `sleepers` after its store of `tail`. A reader that it overlooks checks again by itself.
+    // nothing. A wake-up clears all bits, so a reader whose bit is set has set it after the last wake-up. It wakes by
+    // itself, because its first sleep with the bit set lasts at most `wake_distance` (Consumer::sleep()). For the same
+    // reason, commit() need not order its load of `sleepers` after its store of `tail`. A reader that it overlooks
+    // checks again by itself.
     [[gnu::noinline]] void wake_readers() noexcept {
         const MonoTime now = Words::now();
         if (now < next_wake_) return;

@@ -58,8 +58,8 @@ template <class Words>
     return size <= left && size <= available ? size : 0;
 }
 
-// Loads the header of a record that ends before `end` and returns the record's size. Returns 0 for anything else. `end`
-// must be in the same lap, at most 1/8 of the ring ahead.
+// Loads the header of a record that ends at `end` or before, and returns the record's size. Returns 0 for anything
+// else. `end` must be in the same lap, at most 1/8 of the ring ahead.
 template <class Words>
 [[nodiscard, gnu::always_inline]] inline std::uint64_t load_record(const RingMemory<Words>& ring, std::uint64_t position,
                                                                    std::uint64_t end, Header& header) noexcept {
