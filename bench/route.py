@@ -31,7 +31,7 @@ LINKS = Load("links", "250 systems of 5 components on 64 links, 1,000 frames/s i
 TAP = Load("tap", "1 to 1, 100,000 single-frame datagrams/s, every frame into a ring as well", 100_000)
 HIGHEST = Load("highest", "1 to 1, highest rate of single-frame datagrams without loss", 50_000)
 HIGHEST_CEILING, PROBES = 1_600_000, 14
-BARE, OURS = "bare loop", "mavloom"
+BARE, GATHERING, OURS = "bare loop", "bare loop, gathering", "mavloom"
 
 # Filters of each kind that every frame passes, so that both routers deliver the same frames.
 FILTERS = ['in_block = "PARAM_VALUE,MISSION_ITEM_INT,FILE_TRANSFER_PROTOCOL,sys:251,sys:252,comp:200,comp:201"',
@@ -153,8 +153,9 @@ def run_table(bench, load, peers, base):
     bench.say(f"\n{load.title}; rounds: {bench.rounds}, of {min(bench.seconds, load.longest_s):g} s")
     taken = bench.turns(load, peers)
     table(bench.say, taken, peers, base)
-    if ratios := ratios_of(taken, OURS, "mavrouter", "cpu_us_per_frame"):
-        bench.say(f"  mavloom's CPU for a frame is {spread(ratios)} times mavrouter's")
+    for peer, what in ((GATHERING, "that of the bare loop, gathering"), ("mavrouter", "mavrouter's")):
+        if ratios := ratios_of(taken, OURS, peer, "cpu_us_per_frame"):
+            bench.say(f"  mavloom's CPU for a frame is {spread(ratios)} times {what}")
     if bench.as_json:
         print_ratios(load, taken, peers, base)
     bench.judge(taken)

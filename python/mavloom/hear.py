@@ -6,14 +6,13 @@ Frames that readers of the ring send go to every peer of the link.
 from __future__ import annotations
 
 import argparse
-import re
 import signal
 import sys
 import time
 from collections.abc import Callable
 
+from . import _core
 from . import ClosedError, Error, InputError, Link, PermissionDeniedError, RingWriter, UsageError, connect
-from ._values import mode, size
 
 LOOK_AT_SIGNALS_S = 0.1
 LOOK_AT_ANSWERS_S = 1.0
@@ -58,10 +57,14 @@ class Signals:
         signal.signal(number, signal.SIG_DFL)
 
 
-def ring_name(text: str) -> str:
-    if not re.fullmatch(r"[A-Za-z0-9_-]{1,64}", text):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a valid ring name: use letters, digits, _ and -, at most 64")
-    return text
+def argument(parse: Callable[[str], int]) -> Callable[[str], int]:
+    """Turns a function that raises UsageError into a type for argparse."""
+    def parsed(text: str) -> int:
+        try:
+            return parse(text)
+        except UsageError as error:
+            raise argparse.ArgumentTypeError(str(error)) from None
+    return parsed
 
 
 def arguments(words: list[str] | None) -> argparse.Namespace:
@@ -69,11 +72,11 @@ def arguments(words: list[str] | None) -> argparse.Namespace:
                                      formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False)
     parser.add_argument("url", metavar="URL",
                         help="the link to read from: udpin://0.0.0.0:14550, serial:///dev/ttyACM0?baud=57600, ...")
-    parser.add_argument("--ring", type=ring_name, required=True, metavar="NAME",
+    parser.add_argument("--ring", required=True, metavar="NAME",
                         help="letters, digits, _ and -, at most 64")
-    parser.add_argument("--capacity", type=size, default=8 << 20, metavar="SIZE",
+    parser.add_argument("--capacity", type=argument(_core.ring_capacity), default=8 << 20, metavar="SIZE",
                         help="capacity of a new ring in bytes, a power of two: 64k to 64G (8M)")
-    parser.add_argument("--mode", type=mode, default=0o600, metavar="OCTAL",
+    parser.add_argument("--mode", type=argument(_core.file_mode), default=0o600, metavar="OCTAL",
                         help="permissions of a new ring and of its socket, for reading and sending (0600)")
     end = parser.add_mutually_exclusive_group()
     end.add_argument("--keep", action="store_true", help="keep the ring at the end, for the next writer")

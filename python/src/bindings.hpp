@@ -16,6 +16,7 @@ void bind_mavutil_message(nanobind::module_& module);
 void bind_mavutil_state(nanobind::module_& module);
 void bind_mavutil_log(nanobind::module_& module);
 void bind_mavutil_parser(nanobind::module_& module);
+void bind_ring_options(nanobind::module_& module);
 void bind_ring_writer(nanobind::module_& module);
 void bind_ring_reader(nanobind::module_& module);
 

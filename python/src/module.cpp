@@ -40,6 +40,7 @@ NB_MODULE(_core, module) {
     bind_recording(module);
     bind_recording_writer(module);
     bind_columns(module);
+    bind_ring_options(module);
     bind_ring_writer(module);
     bind_ring_reader(module);
     bind_link(module);

@@ -1,20 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "control/sessions.hpp"
 
+#include <boost/asio/error.hpp>
 #include <boost/asio/read_until.hpp>
 #include <boost/asio/write.hpp>
 #include <istream>
+#include <string_view>
 #include <utility>
+
+#include "control/json_request.hpp"
 
 namespace mavloom::control {
 
-void ControlSession::turn_away(Local::socket& socket) {
+// Does not wait for a client that reads nothing.
+static void refuse(Local::socket& socket, std::string_view why) {
     error_code error;
     socket.non_blocking(true, error);
-    socket.write_some(
-        asio::buffer(std::string_view(R"({"ok":false,"error":"too many requests are being answered; try again"})"
-                                      "\n")),
-        error);
+    socket.write_some(asio::buffer(failed(why).next_text()), error);
+}
+
+void ControlSession::turn_away(Local::socket& socket) {
+    refuse(socket, "too many requests are being answered; try again");
 }
 
 // Pending operations fail, and the session is destroyed with its last handler.
@@ -27,6 +33,7 @@ void ControlSession::read() {
     idle_time_.wait_for_client();
     asio::async_read_until(socket_, input_, '\n', [self = shared_from_this()](error_code error, std::size_t) {
         if (!error) self->ask();
+        else if (error == asio::error::not_found) refuse(self->socket_, "a request is one line of at most 64 KiB");
     });
 }
 

@@ -9,8 +9,7 @@
 
 namespace mavloom::net {
 
-// Parses the zone of a link-local address, "eth0" or "2", without the "%". Returns 0 if there is no such interface.
-static std::uint32_t scope_of(const std::string& zone) {
+std::uint32_t index_of_zone(const std::string& zone) {
     std::uint32_t number = 0;
     const auto [end, error] = std::from_chars(zone.data(), zone.data() + zone.size(), number);
     if (error == std::errc{} && end == zone.data() + zone.size()) return number;
@@ -30,7 +29,7 @@ std::optional<Address> Address::parse(std::string_view host, std::uint16_t port)
     address.storage_.v6.sin6_family = AF_INET6;
     address.storage_.v6.sin6_port = htons(port);
     if (percent != std::string_view::npos) {
-        address.storage_.v6.sin6_scope_id = scope_of(std::string(host.substr(percent + 1)));
+        address.storage_.v6.sin6_scope_id = index_of_zone(std::string(host.substr(percent + 1)));
         if (address.storage_.v6.sin6_scope_id == 0) return std::nullopt;
     }
     return address;

@@ -21,8 +21,7 @@ static std::string all_names() {
 }
 
 SetupResult<std::uint32_t> interface_index(const std::string& name) {
-    const std::uint32_t index = if_nametoindex(name.c_str());
-    if (index != 0) return index;
+    if (const std::uint32_t index = index_of_zone(name); index != 0) return index;
     return setup_error(SetupCode::not_found, fmt::format("there is no interface '{}'; there are {}", name, all_names()));
 }
 

@@ -62,21 +62,20 @@ SetupResult<void> Recorder::look_at_file() {
 }
 
 SetupResult<void> Recorder::write(const FrameQueue::Entry& entry) {
-    wait_to_rotate(entry);
+    wait_for_room(entry);
     auto taken = writer_.write(entry.time, entry.frame);
     count();
     return taken;
 }
 
-// On a full disk, the last records of a segment cannot be written, so the next segment cannot begin. Meanwhile frames
-// wait in the queue.
-void Recorder::wait_to_rotate(const FrameQueue::Entry& entry) {
+// While the disk is full, or there is no new file yet in place of a removed one, frames wait in the queue.
+void Recorder::wait_for_room(const FrameQueue::Entry& entry) {
     constexpr std::chrono::milliseconds look_for_room{100};
-    while (writer_.begins_segment(entry.time, entry.frame) && !ending_.load(std::memory_order_relaxed)) {
+    while (!ending_.load(std::memory_order_relaxed)) {
         const auto room = writer_.make_room(entry.time, entry.frame);
+        if (room || !writer_.can_retry(room.error())) return;
         count();
         report(room);
-        if (room || !writer_.is_full_disk(room.error())) return;
         std::this_thread::sleep_for(look_for_room);
         if (const auto looked = look_at_file(); !looked) report(looked);
     }
@@ -91,9 +90,10 @@ void Recorder::count() noexcept {
 void Recorder::report(const SetupResult<void>& result) {
     if (failing_ == !result.has_value()) return;
     failing_ = !failing_;
-    notice_(failing_ ? fmt::format("{}: {}; frames that do not fit into memory meanwhile are counted as write_error",
-                                   label_, result.error().text)
-                     : fmt::format("{}: records are written again", label_));
+    if (!failing_) return notice_(fmt::format("{}: records are written again", label_));
+    const auto counter = writer_.can_retry(result.error()) ? "queue_full" : "write_error";
+    notice_(fmt::format("{}: {}; frames that do not fit into memory meanwhile are counted as {}", label_,
+                        result.error().text, counter));
 }
 
 }  // namespace mavloom::record

@@ -142,12 +142,13 @@ SetupResult<void> RotatingWriter::make_room(WallTime time, const wire::FrameView
     if (no_file_) return writer_->has_room(frame) ? SetupResult<void>{} : tl::unexpected(*no_file_);
     if (!begins_segment(time, frame)) return writer_->make_room(frame);
     auto flushed = flush();
-    if (!flushed && is_full_disk(flushed.error())) return flushed;
+    if (!flushed && can_retry(flushed.error())) return flushed;
     return {};  // after any other error, a new segment may help
 }
 
-bool RotatingWriter::is_full_disk(const SetupError& error) const noexcept {
-    return (error.sys_errno == ENOSPC || error.sys_errno == EDQUOT) && writer_ && writer_->is_file();
+bool RotatingWriter::can_retry(const SetupError& error) const noexcept {
+    const bool is_full_disk = error.sys_errno == ENOSPC || error.sys_errno == EDQUOT;
+    return (is_full_disk && writer_ && writer_->is_file()) || is_removed();
 }
 
 SetupResult<void> RotatingWriter::flush() {

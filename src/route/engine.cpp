@@ -16,8 +16,8 @@ Engine::Engine(Engine&&) noexcept = default;
 Engine& Engine::operator=(Engine&&) noexcept = default;
 Engine::~Engine() = default;
 
-bool Engine::add_link(LinkId link, const LinkPolicy& policy, std::uint64_t address) {
-    return impl_->add_link(link, policy, address);
+bool Engine::add_link(LinkId link, const LinkPolicy& policy, std::uint64_t address, const LinkCounters& counts) {
+    return impl_->add_link(link, policy, address, counts);
 }
 void Engine::remove_link(LinkId link) { impl_->remove_link(link); }
 void Engine::close_link(LinkId link) { impl_->close_link(link); }

@@ -21,7 +21,7 @@ class Engine::Impl {
 public:
     Impl(const wire::MessageTable& table, const Options& options);
 
-    bool add_link(LinkId id, const LinkPolicy& policy, std::uint64_t address);
+    bool add_link(LinkId id, const LinkPolicy& policy, std::uint64_t address, const LinkCounters& counts);
     void remove_link(LinkId id);
     void close_link(LinkId id);
     void set_options(const Options& given);

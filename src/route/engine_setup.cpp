@@ -48,7 +48,7 @@ void Engine::Impl::grow(std::size_t slots) {
     ids_.resize(slots);
 }
 
-bool Engine::Impl::add_link(LinkId id, const LinkPolicy& policy, std::uint64_t address) {
+bool Engine::Impl::add_link(LinkId id, const LinkPolicy& policy, std::uint64_t address, const LinkCounters& counts) {
     if (id.value == 0 || link_count >= max_links || slot_of(id) != no_slot) return false;
     const std::size_t words = words_;
     const Slot slot = free_slot();
@@ -56,7 +56,8 @@ bool Engine::Impl::add_link(LinkId id, const LinkPolicy& policy, std::uint64_t a
                                .policy = policy,
                                .address = address,
                                .limiter = EgressLimiter(policy.max_rate, policy.max_bytes_per_s),
-                               .filters_in = !policy.in.admits_all()});
+                               .filters_in = !policy.in.admits_all(),
+                               .counters = counts});
     ids_[slot] = id;
     ++link_count;
     routes_.add_link(slot);

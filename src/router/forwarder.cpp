@@ -50,13 +50,16 @@ static std::uint64_t address_of(std::string_view name) {
 // The router sends its own messages neither to taps nor to the inlet: programs at the inlet read the ring, which does
 // not contain these messages.
 bool Forwarder::add_link(LinkId link, const RoutedEndpoint& endpoint) {
-    if (!engine_.add_link(link, endpoint.policy, address_of(links_.link_name(link)))) return false;
+    const auto before = down_.extract(link);
+    const auto counts = before ? before.mapped() : route::LinkCounters{};
+    if (!engine_.add_link(link, endpoint.policy, address_of(links_.link_name(link)), counts)) return false;
     if (!endpoint.policy.tap && !endpoint.is_inlet)
         own_messages_.add(link, wants_heartbeat(endpoint.endpoint), links_.now());
     return true;
 }
 
 void Forwarder::remove_link(LinkId link) {
+    if (const auto* const counts = engine_.counters(link)) down_.insert_or_assign(link, *counts);
     engine_.remove_link(link);
     own_messages_.remove(link);
     has_removed_link_ = true;
@@ -109,9 +112,17 @@ std::string Forwarder::name_of(LinkId link) const {
     return name.empty() ? "a link that is gone" : std::string(name);
 }
 
+const route::LinkCounters* Forwarder::verdicts(LinkId link) const {
+    if (const auto* const counts = engine_.counters(link)) return counts;
+    const auto at = down_.find(link);
+    return at == down_.end() ? nullptr : &at->second;
+}
+
 std::vector<std::string> Forwarder::look_after() {
-    if (std::exchange(has_removed_link_, false))
+    if (std::exchange(has_removed_link_, false)) {
         traffic_.forget_links_unless([&](LinkId link) { return links_.counters(link) != nullptr; });
+        std::erase_if(down_, [&](const auto& link) { return links_.counters(link.first) == nullptr; });
+    }
     std::vector<std::string> warnings;
     const auto ids = engine_.duplicate_ids();
     for (const auto& id : ids.subspan(std::exchange(duplicate_ids_reported_, ids.size())))

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -54,8 +55,10 @@ public:
     // When the router's next own message is due; MonoTime::max() if none is.
     [[nodiscard]] MonoTime next_due() const noexcept { return own_messages_.next_due(); }
     void send_due(MonoTime now) { own_messages_.send_due(now); }
-    // Call about once a second. Forgets the traffic of links that are gone. Returns one warning for each newly found id
-    // that two senders use, and for each vehicle that was learned on a second link.
+    // The verdicts on a link's frames, also while the link is down. Null for a link that is gone.
+    [[nodiscard]] const route::LinkCounters* verdicts(LinkId link) const;
+    // Call about once a second. Forgets the traffic and verdicts of links that are gone. Returns one warning for each
+    // newly found id that two senders use, and for each vehicle that was learned on a second link.
     [[nodiscard]] std::vector<std::string> look_after();
 
     [[nodiscard]] const route::Engine& engine() const noexcept { return engine_; }
@@ -75,11 +78,12 @@ private:
     route::Engine engine_;
     OwnMessages own_messages_;
     observe::TrafficTable traffic_;
+    std::map<LinkId, route::LinkCounters> down_;  // verdicts of links that are down and may come up again
     Explainer explainer_;
     std::vector<route::Explanation> why_;
     Counter not_signed_;
     std::size_t duplicate_ids_reported_ = 0, route_conflicts_reported_ = 0;
-    bool has_removed_link_ = false;  // `traffic_` may hold rows of a link that is gone
+    bool has_removed_link_ = false;  // `traffic_` and `down_` may have a link that is gone
 };
 
 }  // namespace mavloom::router

@@ -72,6 +72,7 @@ void Router::configure(const config::RouterConfig& config) {
 }
 
 const route::Engine& Router::engine() const noexcept { return forwarder_->engine(); }
+const route::LinkCounters* Router::verdicts(LinkId link) const { return forwarder_->verdicts(link); }
 
 const observe::TrafficTable& Router::traffic() const noexcept { return forwarder_->traffic(); }
 

@@ -183,7 +183,7 @@ def test_row_8_no_object_for_each_row(flight):
 
 
 @pytest.mark.parametrize("read", ["mavloom.columns(path, 'ATTITUDE')", "mavloom.tables(path)"])
-def test_example_11_ctrl_c_ends_the_reading_of_a_file_without_end(read, tmp_path, child_environment):
+def test_example_11_ctrl_c_ends_the_reading_of_an_endless_file(read, tmp_path, child_environment):
     """In which the message does not occur."""
     os.mkfifo(tmp_path / "pipe")
     child = subprocess.Popen([sys.executable, "-c", "import mavloom, sys\npath = sys.argv[1]\n"

@@ -249,7 +249,7 @@ def test_row_16_what_is_forwarded_stays_as_it_is(link, vehicle, peer, tmp_path):
     far.socket.close()
 
 
-def test_row_21_nobody_to_send_to_is_told(link, vehicle):
+def test_row_21_nobody_to_send_to_is_reported(link, vehicle):
     assert link.send("HEARTBEAT") == 0
     assert (link.stats.no_peer, link.stats.frames_out) == (1, 0)
     vehicle.send(vehicle.heartbeat())
@@ -409,7 +409,7 @@ def losses(link):
     return {(s.sys, s.comp): (s.received, s.lost, s.late, s.duplicate) for s in link.stats.sources}
 
 
-def test_row_22_loss_is_told_of_each_source(link, vehicle, peer):
+def test_row_22_loss_is_reported_for_each_source(link, vehicle, peer):
     other = Vehicle(peer, link.port, 2, 5)
     for each, numbers in ((vehicle, (0, 1, 1, 3, 2, 4, 6, 7, 8, 9)), (other, (0, 5, 6, 7))):
         frames = [each.sender.pack(each.attitude(i)) for i in range(10)]
@@ -424,7 +424,7 @@ def test_row_22_loss_is_told_of_each_source(link, vehicle, peer):
     other.socket.close()
 
 
-def test_row_22_the_loss_of_those_who_went_stays(peer):
+def test_row_22_the_loss_of_those_that_went_stays(peer):
     sender = packer(peer)
     with mavloom.connect("tcpin://127.0.0.1:0") as link:
         for session in range(3):
@@ -664,7 +664,7 @@ def fill(link):
         link.send("ENCAPSULATED_DATA", seqnr=number, data=bytes(range(1, 254)))
 
 
-def test_row_26_a_peer_that_does_not_read_holds_no_other_link_up(link, vehicle):
+def test_row_26_a_peer_that_does_not_read_delays_no_other_link(link, vehicle):
     """While one link waits for its last frames to go out, frames of another come and go."""
     vehicle.send(vehicle.heartbeat())
     assert link.recv(timeout=DEADLINE_S)
@@ -901,7 +901,7 @@ def test_row_18_the_user_pulls(link):
         assert not hasattr(link, name) and not hasattr(link.mav, name)
 
 
-def test_row_18_what_a_condition_does_holds_no_reception_up(link, vehicle):
+def test_row_18_what_a_condition_does_delays_no_reception(link, vehicle):
     """It runs in the thread that asks, and may use the link itself."""
     threads = []
 

@@ -91,7 +91,7 @@ def test_it_begins_with_the_newest_record(ring, writer):
         assert link.recv(timeout=0) is None
 
 
-def test_row_5_a_lossy_link_is_told_what_it_missed(ring, writer):
+def test_row_5_a_lossy_link_learns_what_it_missed(ring, writer):
     """By the ring's writer (`lapped`), and by this link's own buffer (`missed`)."""
     written = 20_000
     with mavloom.connect(f"shm://{ring}?from=oldest", buffer=64 * KIB) as link:
@@ -118,7 +118,7 @@ def test_row_5_a_lossless_link_holds_the_writer(ring, writer):
         assert (link.stats.lapped, link.stats.missed, link.stats.lost) == (0, 0, 0)
 
 
-def test_row_22_the_next_writer_begins_anew_and_the_sums_stay(ring):
+def test_row_22_the_next_writer_starts_over_and_the_sums_stay(ring):
     with mavloom.connect(f"shm://{ring}?from=oldest") as link:
         for numbers_written in ((0, 3), (77, 80)):
             with mavloom.RingWriter(ring, capacity=64 * KIB) as writer:
@@ -162,7 +162,7 @@ def test_a_name_of_a_link_is_given_once(ring, writer):
             assert numbers(first, 1) == numbers(second, 1) == [4]
 
 
-def test_what_goes_on_into_another_ring_keeps_its_verdict(ring, writer):
+def test_what_continues_into_another_ring_keeps_its_verdict(ring, writer):
     writer.write(beat(1), time_ns=77_000, kind=1, verdict=DUPLICATE)
     with (mavloom.connect(f"shm://{ring}?from=oldest") as link,
           mavloom.RingWriter(f"{ring}-2", capacity=64 * KIB) as copy):

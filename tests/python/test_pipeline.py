@@ -111,7 +111,7 @@ def test_it_begins_and_ends_in_any_order_and_leaves_nothing(pipeline, first, num
 
 
 @pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGKILL])
-def test_the_relay_waits_while_the_writer_is_gone_and_goes_on_when_it_is_back(pipeline, how):
+def test_the_relay_waits_while_the_writer_is_gone_and_continues_when_it_is_back(pipeline, how):
     first, relay = pipeline.hear(), pipeline.relay()
     pipeline.passes()
     first.send(how)
@@ -125,7 +125,7 @@ def test_the_relay_waits_while_the_writer_is_gone_and_goes_on_when_it_is_back(pi
     assert again.stop().status == 130 and relay.stop().status == 130
 
 
-def test_a_killed_relay_holds_nobody_up(pipeline):
+def test_a_killed_relay_delays_nobody(pipeline):
     hear, relay = pipeline.hear(), pipeline.relay()
     pipeline.passes()
     relay.send(signal.SIGKILL)
@@ -209,7 +209,7 @@ def test_what_readers_send_goes_to_every_peer(pipeline):
     relay.stop()
 
 
-def test_an_answer_for_nobody_is_counted_and_said_once(start, ring, port, child_environment):
+def test_an_answer_for_nobody_is_counted_and_reported_once(start, ring, port, child_environment):
     hear = start(sys.executable, "-m", "mavloom.hear", f"udpin://127.0.0.1:{port}", "--ring", ring)
     hear.wait_output("writing to ring", stream="err")
     answers = pathlib.Path(os.environ.get("TMPDIR", "/tmp"), f"{ring}-answers.tlog")
@@ -227,7 +227,7 @@ def test_an_answer_for_nobody_is_counted_and_said_once(start, ring, port, child_
     assert "6 sent by readers of the ring; 6 of these without a peer" in done.stderr
 
 
-def test_an_answer_to_a_vehicle_that_is_gone_is_counted_and_said_once(pipeline):
+def test_an_answer_to_a_vehicle_that_is_gone_is_counted_and_reported_once(pipeline):
     hear, relay = pipeline.hear(), pipeline.relay()
     pipeline.passes()
     pipeline.vehicle.sendto(last := next(pipeline.beats), pipeline.to)

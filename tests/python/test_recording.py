@@ -58,7 +58,7 @@ def test_example_7_counts_heartbeats(flight):
     assert log.stats.junk_bytes == 0
 
 
-def test_a_damaged_file_goes_on_behind_the_damage(flight, tmp_path):
+def test_a_damaged_file_continues_behind_the_damage(flight, tmp_path):
     whole = list(frames_of(flight))[:2000]
     records = [record(frame, i) for i, (_, frame) in enumerate(whole)]
     damaged = bytearray(records[500])
@@ -184,7 +184,7 @@ def test_the_loop_of_pymavlink_users(flight):
     assert log.recv().frame == next(frames_of(flight))[1]
 
 
-def test_row_3_systems_and_components_are_told_apart(flight):
+def test_row_3_systems_and_components_are_distinguished(flight):
     ground = [m for m in mavloom.read(flight, system=255)]
     assert len(ground) == 113 and {m.comp for m in ground} == {190}
     assert sum(1 for _ in mavloom.read(flight, system=1, component=1)) == FRAMES - 113

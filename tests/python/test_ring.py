@@ -121,7 +121,7 @@ def numbers(records):
 
 # ---- one process: what is written is read
 
-def test_what_a_record_says(writer, ring):
+def test_what_a_record_contains(writer, ring):
     reader = mavloom.RingReader(ring)
     before = time.time_ns()
     assert writer.write(b"now") is True
@@ -717,7 +717,7 @@ def test_rows_3_3_3_5_and_3_19_what_is_no_ring_of_this_version_is_named_and_stay
     assert not path_of(ring).exists()
 
 
-def test_row_3_3_another_size_is_another_file_and_readers_of_the_old_one_are_told(writer, ring):
+def test_row_3_3_another_size_is_another_file_and_readers_of_the_old_one_are_notified(writer, ring):
     reader = mavloom.RingReader(ring, lossless=True)
     fill(writer, 3)
     writer.close()
@@ -872,7 +872,7 @@ def test_a_file_of_another_user_that_shrinks_meanwhile_ends_no_process(start, ri
 
 
 @as_root
-def test_row_3_23_who_may_only_read_polls_and_changes_nothing(start, ring):
+def test_row_3_23_a_reader_without_write_permission_polls_and_changes_nothing(start, ring):
     with mavloom.RingWriter(ring, capacity=64 * KIB, mode=0o644) as writer:
         process = start(AS_NOBODY + """
 reader = mavloom.RingReader(ring)
@@ -926,7 +926,7 @@ def test_example_10_the_program_writes_and_python_reads(writer, ring, lossless):
 
 # ---- losses that are reported
 
-def test_row_5_a_lapped_reader_is_told_by_how_many(writer, ring):
+def test_row_5_a_lapped_reader_learns_how_many_it_missed(writer, ring):
     reader, sent, found = mavloom.RingReader(ring), 0, []
     for _ in range(50):
         fill(writer, 4000, first=sent)
@@ -1120,7 +1120,7 @@ time.sleep(3600)
     os.kill(child, 0)
 
 
-def test_row_3_7_files_that_somebody_takes_away(writer, ring):
+def test_row_3_7_files_that_somebody_removes(writer, ring):
     reader = mavloom.RingReader(ring, lossless=True)
     fill(writer, 5)
     path_of(ring, ".stat").write_bytes(b"")
@@ -1467,7 +1467,7 @@ def test_row_19_records_come_in_order_while_they_are_written(writer, ring, lossl
         assert found == list(range(found[0], found[0] + len(found))) and len(found) >= count
 
 
-def test_row_3_21_the_waiter_tells_and_no_timer(writer, ring, monkeypatch):
+def test_row_3_21_the_waiter_wakes_the_loop_and_no_timer_does(writer, ring, monkeypatch):
     monkeypatch.setattr("mavloom._async.LOOK_FOR_RING_S", 1e6)
 
     async def run():
@@ -1482,7 +1482,7 @@ def test_row_3_21_the_waiter_tells_and_no_timer(writer, ring, monkeypatch):
 
 
 @as_root
-def test_rows_3_21_and_3_23_who_may_only_read_is_told_too(start, ring):
+def test_rows_3_21_and_3_23_a_reader_without_write_permission_is_notified_too(start, ring):
     with mavloom.RingWriter(ring, capacity=64 * KIB, mode=0o644) as writer:
         process = start(AS_NOBODY + """
 import asyncio
@@ -1809,7 +1809,7 @@ def test_row_17_a_read_waits_for_the_views_of_another_thread(held):
     thread.join(DEADLINE_S)
 
 
-def test_row_17_who_looks_too_is_not_waited_for(held):
+def test_row_17_another_looking_reader_is_not_waited_for(held):
     """It would never end."""
     record = in_thread(held.read)
     view = in_thread(lambda: record.data)
@@ -1820,7 +1820,7 @@ def test_row_17_who_looks_too_is_not_waited_for(held):
     assert held.read().position == 32
 
 
-def test_row_26_who_waits_wakes_when_it_is_closed(ring):
+def test_row_26_a_waiting_reader_wakes_when_it_is_closed(ring):
     writer = mavloom.RingWriter(ring, capacity=64 * KIB)
     reader, full = mavloom.RingReader(ring), mavloom.RingReader(ring, lossless=True)
     raised = []
@@ -1929,7 +1929,7 @@ def send(port, frames):
 
 
 @pytest.mark.parametrize("verify, verdict", [(False, 0x10), (True, 0x20)])
-def test_pump_says_of_signatures_what_the_format_says(ring, tmp_path, verify, verdict):
+def test_pump_writes_the_verdicts_that_the_format_requires(ring, tmp_path, verify, verdict):
     key = tmp_path / "link.key"
     key.write_text("07" * 32)
     key.chmod(0o600)
@@ -2049,7 +2049,7 @@ def test_hear_leaves_alone_what_it_was_started_to_ignore(hear, ring, frames):
     assert ended(process) == (143, "", f"{ring}: 6 frames heard, 6 written\n") and not path_of(ring).exists()
 
 
-def test_hear_takes_the_ring_away_at_its_end_unless_told(hear, ring):
+def test_hear_removes_the_ring_at_its_end_unless_requested(hear, ring):
     for words, made_before, stays in (([], True, False), (["--remove"], True, False), (["--keep"], False, True),
                                       (["--keep"], True, True), (["--remove"], False, False),
                                       ([], False, False)):
@@ -2081,7 +2081,7 @@ def test_hear_touches_no_ring_when_it_cannot_listen(hear, ring):
 
 
 @pytest.mark.parametrize("take_away", [mavloom.remove_ring, lambda name: path_of(name).unlink()], ids=["removed", "rm"])
-def test_hear_makes_a_ring_anew_that_somebody_takes_away(hear, ring, frames, take_away):
+def test_hear_creates_a_ring_again_that_somebody_removes(hear, ring, frames, take_away):
     process, port = hear("--ring", ring)
     process.stderr.readline()
     with mavloom.RingReader(ring, lossless=True) as reader:
@@ -2097,7 +2097,7 @@ def test_hear_makes_a_ring_anew_that_somebody_takes_away(hear, ring, frames, tak
     assert ended(process) == (130, "", f"{ring}: 300 frames heard, 300 written\n") and not path_of(ring).exists()
 
 
-def test_hear_tells_what_it_missed(hear, ring, frames):
+def test_hear_reports_what_it_missed(hear, ring, frames):
     process, port = hear("--ring", ring, "--capacity", "64k")
     process.stderr.readline()
     with mavloom.RingReader(ring, lossless=True) as reader:
@@ -2110,10 +2110,10 @@ def test_hear_tells_what_it_missed(hear, ring, frames):
         assert 100 < written < 1000
 
 
-def test_hear_says_what_is_wrong(hear, writer, ring):
+def test_hear_states_what_is_wrong(hear, writer, ring):
     for words, status, what in ((["--ring", ring], 1, f"ring {ring} already has a writer, process {os.getpid()}"),
                                 ([], 2, "--ring"), (["--ring", "a/b"], 2, "not a valid ring name"),
-                                (["--ring", ring, "--capacity", "8X"], 2, "expected a size"),
+                                (["--ring", ring, "--capacity", "8X"], 2, "is not a size"),
                                 (["--ring", ring, "--capacity", "100k"], 2, "power of two"),
                                 (["--ring", ring, "--mode", "9"], 2, "octal"),
                                 (["--ring", ring, "--keep", "--remove"], 2, "not allowed")):

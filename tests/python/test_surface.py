@@ -150,7 +150,7 @@ def test_texts_say_what_is_wrong(call, text, flight):
         call(flight)
 
 
-def test_a_message_says_how_to_change_it():
+def test_a_message_states_how_to_change_it():
     message = mavloom.Dialect().message("ATTITUDE", roll=0.5)
     with pytest.raises(AttributeError, match=r"make a new one: msg.dialect.message\(msg, roll=...\)"):
         message.roll = 1

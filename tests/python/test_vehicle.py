@@ -174,7 +174,7 @@ def test_silence_is_a_timeout(peer, quick):
         assert len(stub.messages) == 4
 
 
-def test_a_command_is_repeated_as_often_as_the_script_says(peer):
+def test_a_command_is_repeated_as_often_as_the_script_requests(peer):
     with flown(peer, silent=frozenset({"COMMAND_LONG"})) as (vehicle, stub):
         with pytest.raises(TimeoutError, match="no answer to MAV_CMD_DO_SET_SERVO after 7 tries"):
             vehicle.command("DO_SET_SERVO", 9, timeout=0.02, tries=7)

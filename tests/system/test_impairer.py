@@ -39,7 +39,7 @@ def test_jitter_keeps_the_order(rng):
     assert pass_through(rng, Profile(delay=0.001, jitter=0.01))[0] == list(range(300))
 
 
-def test_every_fate_is_told(rng):
+def test_every_fate_is_reported(rng):
     arrived, impairer = pass_through(rng, ALL)
     lost = {int(d) for d in impairer.forth.lost}
 

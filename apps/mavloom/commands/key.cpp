@@ -18,6 +18,7 @@ Run declare_key(Arguments command, const Common& common) {
     auto file = std::make_shared<std::string>();
     auto create = command.add_subcommand("new", "write a new random signing key to a file of mode 0600");
     create.add_option("file", "FILE", *file, "the file to create").required();
+    create.fallthrough();
     create.footer("Example: mavloom key new link.key");
     command.require_subcommand();
     command.footer(

@@ -16,7 +16,7 @@ namespace mavloom::app {
 
 namespace {
 
-constexpr std::chrono::milliseconds look_for_room{100};
+constexpr std::chrono::milliseconds retry_interval{100};
 
 struct RecordOptions {
     ReceiveOptions receive;
@@ -25,7 +25,8 @@ struct RecordOptions {
     bool json = false;
 };
 
-// Writes the frames of the receiver to the recording. On a full disk it waits for room, as a router's recording does.
+// Writes the frames of the receiver to the recording. While the disk is full, or the folder of the file is missing, it
+// waits, as a router's recording does.
 // Meanwhile frames wait in the receiver's buffer. Frames that do not fit there are counted.
 class Recording {
 public:
@@ -50,7 +51,7 @@ public:
 private:
     SetupResult<void> look_at_file() {
         auto removed = writer_.look_after(mono_now());
-        if (!removed && writer_.is_full_disk(removed.error())) return {};  // the next write waits for room
+        if (!removed && writer_.can_retry(removed.error())) return {};  // the next write waits
         if (!removed) return tl::unexpected(std::move(removed.error()));
         if (!removed->empty()) print_notice(common_, record::removal_notice(*removed));
         return {};
@@ -64,15 +65,15 @@ private:
         return room;
     }
 
-    // While the disk is full, waits and retries.
+    // Waits and retries while that can help.
     SetupResult<void> flush() {
         auto flushed = writer_.flush();
-        if (flushed || !writer_.is_full_disk(flushed.error())) return flushed;
+        if (flushed || !writer_.can_retry(flushed.error())) return flushed;
         print_notice(common_,
-                     fmt::format("{}; waiting for room; frames that do not fit into --buffer are dropped and counted",
+                     fmt::format("{}; trying again; frames that do not fit into --buffer are dropped and counted",
                                  flushed.error().text));
-        while (!flushed && writer_.is_full_disk(flushed.error()) && may_continue()) {
-            ::poll(nullptr, 0, static_cast<int>(look_for_room.count()));  // a signal ends the wait
+        while (!flushed && writer_.can_retry(flushed.error()) && may_continue()) {
+            ::poll(nullptr, 0, static_cast<int>(retry_interval.count()));  // a signal ends the wait
             if (auto looked = look_at_file(); !looked) return looked;
             flushed = writer_.flush();
         }

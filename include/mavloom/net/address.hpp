@@ -19,6 +19,9 @@
 
 namespace mavloom::net {
 
+// Returns the index of the interface of a zone, such as "eth0" or "2" (without "%"). Returns 0 if there is none.
+[[nodiscard]] std::uint32_t index_of_zone(const std::string& zone);
+
 class Address {
 public:
     Address() noexcept { std::memset(&storage_, 0, sizeof storage_); }

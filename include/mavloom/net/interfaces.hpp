@@ -17,7 +17,7 @@
 
 namespace mavloom::net {
 
-// Returns the index of the interface `name`. `not_found` lists the interfaces that exist.
+// Returns the index of the interface `name`, which may also be its number. `not_found` lists the interfaces that exist.
 [[nodiscard]] SetupResult<std::uint32_t> interface_index(const std::string& name);
 
 class OwnAddresses {

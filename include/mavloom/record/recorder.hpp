@@ -69,7 +69,7 @@ private:
     Recorder(std::string label, record::RotatingWriter writer, std::unique_ptr<FrameQueue> queue, Notice notice);
     void run();
     [[nodiscard]] SetupResult<void> write(const FrameQueue::Entry& entry);
-    void wait_to_rotate(const FrameQueue::Entry& entry);
+    void wait_for_room(const FrameQueue::Entry& entry);
     void count() noexcept;
     void report(const SetupResult<void>& result);
     [[nodiscard]] SetupResult<void> look_at_file();

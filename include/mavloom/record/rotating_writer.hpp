@@ -38,9 +38,9 @@ public:
     // Makes room for this record: in the buffer, or, if the record begins a segment, by writing the last records of the
     // open one. So a retry after an error loses nothing, and no segment grows past its limits on a full disk.
     [[nodiscard]] SetupResult<void> make_room(WallTime time, const wire::FrameView& frame);
-    // Whether this error of `make_room` means a full disk, so that a retry can succeed once the disk has room. False
-    // for devices and pipes.
-    [[nodiscard]] bool is_full_disk(const SetupError& error) const noexcept;
+    // Whether a retry after this error can succeed without a new segment: the disk is full, or the file was removed
+    // and there is no new one yet. False for devices and pipes.
+    [[nodiscard]] bool can_retry(const SetupError& error) const noexcept;
     // An error means that records were lost; `lost_records` counts them. There are two cases:
     // - This record was not taken, because `make_room` failed or the next segment could not be opened.
     // - The last records of the previous segment could not be written when it was closed.

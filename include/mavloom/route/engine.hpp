@@ -197,7 +197,8 @@ public:
     // Returns false if there are max_links links already, or if the id is 0 or in use. `address` identifies the
     // far end, and is the same when the far end reconnects; 0 if unknown. A vehicle that returns from the same address
     // is learned at once.
-    bool add_link(LinkId link, const LinkPolicy& policy, std::uint64_t address = 0);
+    // `counts`: the counters of an earlier link with this id, which continue.
+    bool add_link(LinkId link, const LinkPolicy& policy, std::uint64_t address = 0, const LinkCounters& counts = {});
     // Forgets the link and its routes. Ignores an unknown id.
     void remove_link(LinkId link);
     // Like `remove_link`, for a link that was closed on purpose: any other link may learn its vehicles at once.

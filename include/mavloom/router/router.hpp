@@ -108,6 +108,8 @@ public:
     [[nodiscard]] MetricsDetail metrics_detail() const noexcept { return metrics_detail_; }
     [[nodiscard]] link::Links& links() noexcept { return *links_; }
     [[nodiscard]] const route::Engine& engine() const noexcept;
+    // The verdicts on a link's frames, also while the link is down. Null for a link that is gone.
+    [[nodiscard]] const route::LinkCounters* verdicts(LinkId link) const;
     [[nodiscard]] const observe::TrafficTable& traffic() const noexcept;
     // Valid until the next `add`, `remove`, `apply` or `finish`.
     [[nodiscard]] std::vector<const record::Recorder*> recorders() const;

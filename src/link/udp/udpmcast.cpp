@@ -18,9 +18,11 @@ namespace {
 
 class UdpMulticast final : public OpenEndpoint, public UdpOwner, public net::TimerHandler {
 public:
-    UdpMulticast(Opening& opening, const net::Address& group)
+    // `interface`: its name; empty for the one that the kernel chooses.
+    UdpMulticast(Opening& opening, const net::Address& group, std::string interface)
         : OpenEndpoint(opening),
           core_(opening.core),
+          interface_(std::move(interface)),
           idle_(opening.endpoint.options.idle.value_or(UdpPeers::default_idle)),
           hearing_(opening.core, *this, counters, opening.endpoint.options.mtu_bytes),
           sending_(opening.core, *this, counters, opening.endpoint.options.mtu_bytes),
@@ -54,6 +56,7 @@ public:
 
 private:
     Core& core_;
+    std::string interface_;
     Nanoseconds idle_;
     net::OwnAddresses own_;
     std::uint16_t own_port_ = 0;
@@ -66,9 +69,8 @@ private:
 SetupResult<void> UdpMulticast::join() {
     net::UdpOptions options = udp_options(info.endpoint.options);
     options.device.clear();
-    options.group_interface = group_.address.scope();
-    if (const auto& name = info.endpoint.options.iface; !name.empty()) {
-        const auto index = net::interface_index(name);
+    if (!interface_.empty()) {
+        const auto index = net::interface_index(interface_);
         if (!index) return tl::unexpected(index.error());
         options.group_interface = *index;
     }
@@ -110,13 +112,15 @@ void UdpMulticast::on_timer(MonoTime now) {
 
 SetupResult<std::unique_ptr<OpenEndpoint>> open_udpmcast(Opening opening) {
     const endpoint::Endpoint& endpoint = opening.endpoint;
-    const auto group = net::Address::parse(endpoint.address.host, endpoint.address.port);
-    if (!group || !group->is_multicast() || group->port() == 0) {
+    const std::string& host = endpoint.address.host;
+    const auto percent = host.find('%');
+    const auto zone = percent == std::string::npos ? std::string{} : host.substr(percent + 1);
+    const auto group = net::Address::parse(host.substr(0, percent), endpoint.address.port);
+    if (!group || !group->is_multicast() || group->port() == 0)
         return setup_error(SetupCode::usage,
-                           fmt::format("{}: '{}' is not a multicast group with a port, or its interface does not exist",
-                                       endpoint.label(), endpoint.address.host));
-    }
-    auto opened = std::make_unique<UdpMulticast>(opening, *group);
+                           fmt::format("{}: '{}' is not a multicast group with a port", endpoint.label(), host));
+    const std::string& iface = endpoint.options.iface;
+    auto opened = std::make_unique<UdpMulticast>(opening, *group, iface.empty() ? zone : iface);
     auto done = opened->join();
     if (done) return opened;
     const bool may_come = done.error().code == SetupCode::not_found || done.error().code == SetupCode::unreachable;

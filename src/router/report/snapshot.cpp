@@ -121,7 +121,7 @@ void Snapshots::copy_links(Copy& copy, Router& router) {
         link::add_links(to, router.links(), std::span(&id, 1));
         if (to.links.size() == known) continue;  // the link has gone
         auto& link = to.links.back();
-        if (const auto* routed = router.engine().counters(id)) append(link.counts, *routed);
+        if (const auto* routed = router.verdicts(id)) append(link.counts, *routed);
         copy.copied += rows_per_link + link.sources.size();
         if (copy.contents != Contents::routes) continue;
         const auto routes = router.engine().routes(id, mono_now());

@@ -100,7 +100,7 @@ def test_a_class_with_recv_msg_of_its_own(module, peer):
     connection.port.close()
 
 
-def test_a_class_without_methods_says_what_it_lacks():
+def test_a_class_without_methods_states_what_it_lacks():
     connection = mavutil.mavfile(None, "nothing")
     with pytest.raises(mavloom.UsageError, match="nothing: mavfile has no method recv"):
         connection.recv_msg()

@@ -62,7 +62,7 @@ def test_an_empty_value_is_wrong_use(run, arguments, option):
 
 @pytest.mark.parametrize("arguments",
                          [["--dialect", "x.xml", "listen", IN], ["--json", "listen", IN], ["-q", "route", IN]])
-def test_an_option_before_the_command_is_told_its_place(run, arguments):
+def test_an_option_before_the_command_is_explained(run, arguments):
     done = run(*arguments)
     command = next(word for word in arguments if word in ("listen", "route"))
     assert done.status == 2
@@ -76,7 +76,7 @@ def test_options_of_the_program_itself(run):
     assert run("--hepl").status == 2
 
 
-def test_sign_link_id_says_what_it_needs_and_its_range(run):
+def test_sign_link_id_states_what_it_needs_and_its_range(run):
     alone = run("relay", IN, "--to", OUT, "--sign-link-id", "3")
     assert alone.status == 2 and "--sign-link-id requires --sign" in alone.stderr
     far = run("relay", IN, "--to", OUT, "--sign", "x", "--sign-link-id", "300")
@@ -98,7 +98,7 @@ def test_a_folder_is_no_input_file(run, arguments):
     assert done.status == 3, done
 
 
-def test_an_include_that_is_missing_says_where_it_is_looked_for(run, tmp_path):
+def test_an_include_that_is_missing_states_where_it_is_looked_for(run, tmp_path):
     path = tmp_path / "mine.xml"
     path.write_text("<mavlink>\n<include>common.xml</include>\n</mavlink>")
     done = run("dialect", "check", path)
@@ -128,7 +128,7 @@ def test_one_is_singular(run, tmp_path):
 @pytest.mark.parametrize("command", [["listen", "{log}"], ["replay", "{log}", "--to", "tlog://{tmp}/out.tlog"],
                                      ["record", "{log}", "-o", "{tmp}/out.tlog"],
                                      ["relay", "{log}", "--to", "tlog://{tmp}/out.tlog"]])
-def test_an_empty_recording_is_told(run, tmp_path, command):
+def test_an_empty_recording_is_reported(run, tmp_path, command):
     log = tmp_path / "empty.tlog"
     log.touch()
     done = run(*[word.format(log=log, tmp=tmp_path) for word in command])
@@ -156,7 +156,7 @@ def test_a_destination_is_left_alone_when_the_input_is_wrong(run, tmp_path, comm
 
 @pytest.mark.parametrize("arguments", [["listen", IN], ["record", IN, "-o", "/dev/null"], ["relay", IN, "--to", OUT],
                                        ["relay", "tcpin://127.0.0.1:0", "--to", OUT]])
-def test_listening_is_told(spawn, arguments):
+def test_listening_is_reported(spawn, arguments):
     process = spawn(*arguments)
     scheme = arguments[1].split(":")[0]
     process.wait_output(rf"^mavloom: {scheme}://127\.0\.0\.1:[1-9]\d*: listening\b(?! on)", stream="err")

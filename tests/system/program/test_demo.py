@@ -45,7 +45,7 @@ def test_what_is_damaged_in_the_flight_is_not_asked_for(program, flight, tmp_pat
     ("replay", "--for 50ms", "MISMATCH"), ("relay", "--only ATTITUDE", "MISMATCH"),
     ("relay", "--set HEARTBEAT.custom_mode=1", "MISMATCH"), ("listen", "--only ATTITUDE", "MISMATCH"),
     ("record", "--count 10", "FAILED")])
-def test_a_fault_of_ours_is_told(program, flight, tmp_path, command, option, said):
+def test_a_fault_of_ours_is_reported(program, flight, tmp_path, command, option, said):
     faulty = tmp_path / "mavloom"
     faulty.write_text(f'#!/bin/sh\n[ "$1" = {command} ] && exec "{program}" "$@" {option}\nexec "{program}" "$@"\n')
     faulty.chmod(0o755)

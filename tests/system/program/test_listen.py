@@ -83,7 +83,7 @@ def test_json_of_the_whole_flight_agrees_with_pymavlink(run):
     assert compared == 5312  # the recording's table
 
 
-def test_udp_loses_nothing_and_tells_the_peers_apart(spawn):
+def test_udp_loses_nothing_and_distinguishes_the_peers(spawn):
     process = spawn("listen", "udpin://127.0.0.1:0", "--json", "--count", "600")
     address = ("127.0.0.1", port_of(process))
     peers = [harness.udp_socket() for _ in range(3)]
@@ -177,7 +177,7 @@ def test_stats_table_for_people(run):
     assert any(line.split()[:2] == ["HEARTBEAT", "106"] for line in done.lines)
 
 
-def test_loss_duplicates_and_reordering_are_told_apart(run, tmp_path):
+def test_loss_duplicates_and_reordering_are_distinguished(run, tmp_path):
     all_frames = list(frames.heartbeats(100))
     order = [f for i, f in enumerate(all_frames) if i not in (10, 11, 50)]  # three lost
     order.insert(20, order[19])  # one twice
@@ -454,7 +454,7 @@ def test_the_end_comes_although_a_recording_is_nothing_but_damage(run):
     (["--count", "99999999999999999999"], 2, "--count"),
     (["--buffer", "1"], 2, "64k"),
 ])
-def test_wrong_use_says_what_to_type(run, arguments, status, said):
+def test_wrong_use_states_what_to_type(run, arguments, status, said):
     done = run("listen", frames.FLIGHT, *arguments)
 
     assert done.status == status
@@ -534,7 +534,7 @@ def test_a_missing_recording(run):
     assert "nowhere.tlog" in done.stderr
 
 
-def test_a_damaged_recording_goes_on_behind_the_damage(run, tmp_path):
+def test_a_damaged_recording_continues_behind_the_damage(run, tmp_path):
     data = bytearray(frames.FLIGHT.read_bytes()[:100_000])
     data[50_000:50_200] = os.urandom(200)
     log = tmp_path / "damaged.tlog"

@@ -4,6 +4,7 @@ import contextlib
 import json
 import os
 import re
+import shutil
 import signal
 import socket
 import time
@@ -204,7 +205,7 @@ def test_a_recording_waits_for_room_on_a_full_disk(spawn, udp_socket, tmp_path, 
                 sent.append(next(frames.heartbeats(1, sequence=len(sent) % 256)) if len(sent) % 2
                             else frames.attitude(len(sent), sequence=len(sent) % 256))
                 sender.sendto(sent[-1], address)
-            return "waiting for room" in process.stderr
+            return "trying again" in process.stderr
         wait_for(send_more, what="the disk to be full")
         for _ in range(20):
             send_more()
@@ -215,12 +216,12 @@ def test_a_recording_waits_for_room_on_a_full_disk(spawn, udp_socket, tmp_path, 
 
         assert done.status == 130 and (recorded["frames"], recorded["not_written"]) == (len(sent), 0)
         assert [frame for _, frame in frames.read_tlog(log)] == sent
-        assert done.stderr.count("waiting for room") == 1
+        assert done.stderr.count("trying again") == 1
 
 
 @pytest.mark.parametrize("command", ["record udpin://127.0.0.1:0 -o", "relay udpin://127.0.0.1:0 --to"])
 @pytest.mark.parametrize("how", ["deleted", "replaced", "rotated"])
-def test_a_file_that_goes_is_told_and_a_new_one_begins(spawn, udp_socket, tmp_path, wait_for, command, how):
+def test_a_file_that_goes_is_reported_and_a_new_one_begins(spawn, udp_socket, tmp_path, wait_for, command, how):
     options = "?rotate_every=1h" if how == "rotated" else ""
     process = spawn(*command.split(), f"tlog://{tmp_path / 'x.tlog'}{options}")
     address = ("127.0.0.1", int(process.wait_output(r"listening on port (\d+)", stream="err")[1]))
@@ -240,11 +241,31 @@ def test_a_file_that_goes_is_told_and_a_new_one_begins(spawn, udp_socket, tmp_pa
     assert process.stop().status == 130
 
 
+def test_record_waits_for_the_folder_of_its_file(spawn, udp_socket, tmp_path, wait_for):
+    log = tmp_path / "folder" / "x.tlog"
+    log.parent.mkdir()
+    process = spawn("record", "udpin://127.0.0.1:0", "-o", log)
+    address = ("127.0.0.1", int(process.wait_output(r"listening on port (\d+)", stream="err")[1]))
+    sender = udp_socket()
+    sender.sendto(frames.attitude(0), address)
+    wait_for(lambda: frames.read_tlog(log), what="the first frame")
+    shutil.rmtree(log.parent)
+    sender.sendto(frames.attitude(1), address)
+    process.wait_output("No such file or directory; trying again", stream="err")
+    sender.sendto(frames.attitude(2), address)
+    log.parent.mkdir()
+    process.wait_output("records are written again", stream="err")
+
+    assert process.stop().status == 130
+    # The frame before may have gone to the deleted file.
+    assert [frame for _, frame in frames.read_tlog(log)][-1] == frames.attitude(2)
+
+
 def test_a_recording_on_a_disk_that_stays_full_ends_when_it_is_asked_to(spawn, tmp_path):
     disk = SmallDisk(tmp_path)
     with contextlib.closing(disk):
         process = spawn("record", frames.FLIGHT, "-o", tmp_path / "x.tlog", "--json")
-        process.wait_output("No space left on device; waiting for room", stream="err")
+        process.wait_output("No space left on device; trying again", stream="err")
         done = process.stop()
         recorded = json.loads(done.stdout)["stats"]["destinations"][0]
         written = frames.read_tlog(tmp_path / "x.tlog")
@@ -300,7 +321,7 @@ def test_a_recording_that_rotates_is_not_the_one_it_is_named_after(run, tmp_path
     assert (tmp_path / "x.tlog").read_bytes() == frames.FLIGHT.read_bytes()
 
 
-def test_a_start_behind_the_end_is_said(run, tmp_path):
+def test_a_start_behind_the_end_is_reported(run, tmp_path):
     done = run("replay", frames.FLIGHT, "--to", tmp_path / "x.tlog", "--speed", "max", "--start", "10h")
     other = run("replay", frames.FLIGHT, "--to", tmp_path / "y.tlog", "--speed", "max", "--start", "1s", "--only",
                 "GPS2_RAW")
@@ -385,7 +406,7 @@ def test_the_speed_on_the_command_line_is_the_one(run, tmp_path, file, speed, sl
 
 
 @pytest.mark.parametrize("command", ["replay", "relay"])
-def test_that_nobody_listened_is_told(run, tmp_path, udp_port, command):
+def test_that_nobody_listened_is_reported(run, tmp_path, udp_port, command):
     log = frames.write_tlog(tmp_path / "in.tlog", list(enumerate(frames.heartbeats(3))))
     address = f"udpout://127.0.0.1:{udp_port()}?mtu=0"
     done = run(command, log, "--to", address, "--json")

@@ -53,7 +53,7 @@ def router(spawn, tmp_path, udp_port, manager, manager_address):
     return start
 
 
-def test_tells_of_its_start_its_reload_and_its_end(router, manager):
+def test_reports_its_start_its_reload_and_its_end(router, manager):
     running = router()
     assert manager.next() == "READY=1"
 

@@ -108,7 +108,7 @@ def test_hexadecimal_lines(run, ring):
 
 
 @short
-def test_the_next_writer_carries_on_and_another_capacity_begins_anew(run, ring):
+def test_the_next_writer_carries_on_and_another_capacity_starts_over(run, ring):
     write(run, ring, "a\n")
     write(run, ring, "b\n")
     assert read_all(run, ring, "--data").lines == ["a", "b"]
@@ -151,7 +151,7 @@ def test_list_and_stat(run, spawn, ring):
 
 
 @short
-def test_a_reader_waits_for_a_ring_and_says_what_there_is(run, spawn, ring):
+def test_a_reader_waits_for_a_ring_and_states_what_there_is(run, spawn, ring):
     reader = spawn("shm", "read", ring, "--data", "--count", "2")
     reader.wait_output(f"there is no ring {ring}; .*waiting for it", stream="err")
     write(run, ring, "one\n")
@@ -162,7 +162,7 @@ def test_a_reader_waits_for_a_ring_and_says_what_there_is(run, spawn, ring):
 
 
 @short
-def test_a_reader_goes_on_when_the_ring_is_removed_and_comes_back(run, spawn, ring):
+def test_a_reader_continues_when_the_ring_is_removed_and_comes_back(run, spawn, ring):
     write(run, ring, "one\n")
     reader = spawn("shm", "read", ring, "--data", "--from", "oldest")
     reader.wait_output("^one$", stream="out")
@@ -505,7 +505,7 @@ def count_of(reader):
 
 
 @short
-def test_lapped_readers_are_told_by_how_many(start, ring):
+def test_lapped_readers_learn_how_many_they_missed(start, ring):
     writer = start("write", ring, "0", "evict")
     writer.wait_output("ready")
     readers = [start("read", ring, kind, "50000") for kind in ("lossy", "lossless", "polling")]
@@ -603,7 +603,7 @@ def test_the_example_of_the_format_page(run, ring):
 
 
 @short
-def test_identity_and_control_words_are_where_the_format_page_says(run, spawn, ring):
+def test_identity_and_control_words_are_where_the_format_page_has_them(run, spawn, ring):
     write(run, ring, "one\ntwo\n", "--full", "evict")
     reader = spawn("shm", "read", ring, "--from", "oldest", "--lossless", "--data")
     reader.wait_output("^two$", stream="out")

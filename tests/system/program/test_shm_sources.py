@@ -253,7 +253,7 @@ def test_a_killed_relay_lets_go_of_the_writer(run, spawn, feed, ring, sink):
 # ---- lossy readers
 
 @short
-def test_a_lapped_listener_is_told_exactly_what_it_missed(run, spawn, feed, ring):
+def test_a_lapped_listener_learns_exactly_what_it_missed(run, spawn, feed, ring):
     writer = feed(ring)
     listener = spawn("listen", f"shm://{ring}", "--json", "--stats")
     wait_readers(run, ring)
@@ -273,7 +273,7 @@ def test_a_lapped_listener_is_told_exactly_what_it_missed(run, spawn, feed, ring
 
 
 @short
-def test_the_end_of_listen_tells_what_was_missed(run, spawn, feed, ring):
+def test_the_end_of_listen_reports_what_was_missed(run, spawn, feed, ring):
     writer = feed(ring)
     listener = spawn("listen", f"shm://{ring}")
     wait_readers(run, ring)
@@ -404,7 +404,7 @@ def test_a_wait_for_a_ring_ends_on_request(spawn, ring, tmp_path, command, end):
 
 
 @short
-def test_an_absent_ring_is_told_in_one_line_with_the_rings_there_are(run, feed, ring):
+def test_an_absent_ring_is_reported_in_one_line_with_the_existing_rings(run, feed, ring):
     feed(f"{ring}-b")
     try:
         done = run("listen", f"shm://{ring}", "--for", "300ms")
@@ -417,7 +417,7 @@ def test_an_absent_ring_is_told_in_one_line_with_the_rings_there_are(run, feed, 
 
 
 @short
-def test_count_ends_it_while_the_writer_goes_on(run, spawn, feed, ring):
+def test_count_ends_it_while_the_writer_continues(run, spawn, feed, ring):
     writer = feed(ring)
     listener = spawn("listen", f"shm://{ring}", "--json", "--count", "10")
     wait_readers(run, ring)
@@ -497,7 +497,7 @@ def test_an_echo_in_a_ring_is_no_loss(run, spawn, feed, ring):
 
 
 @short
-def test_random_bytes_under_the_name_are_told_and_waited_out(spawn, feed, ring, rng):
+def test_random_bytes_under_the_name_are_reported_and_waited_out(spawn, feed, ring, rng):
     path = SHM / f"mavloom.{ring}"
     path.write_bytes(rng.randbytes(16384 + 65536))
     listener = spawn("listen", f"shm://{ring}", "--json", "--count", "3")
@@ -509,7 +509,7 @@ def test_random_bytes_under_the_name_are_told_and_waited_out(spawn, feed, ring, 
 
 
 @short
-def test_damage_below_a_reader_is_told_and_another_ring_read(run, spawn, feed, ring, rng):
+def test_damage_below_a_reader_is_reported_and_another_ring_read(run, spawn, feed, ring, rng):
     path = SHM / f"mavloom.{ring}"
     writer = feed(ring)
     listener = spawn("listen", f"shm://{ring}?lossless=true", "--json")
@@ -576,7 +576,7 @@ def test_an_inlet_that_goes_and_comes_back(spawn, inlet, ring, udp_port):
 
 
 @short
-def test_an_inlet_that_was_made_anew_while_nothing_was_sent_misses_nothing(spawn, inlet, ring, udp_port):
+def test_an_inlet_that_was_created_again_while_nothing_was_sent_misses_nothing(spawn, inlet, ring, udp_port):
     """The sender notices by its first frame that the router went, and finds the next one at once."""
     first, port = inlet(), udp_port()
     relay = spawn("relay", f"udpin://127.0.0.1:{port}", "--to", f"shm://{ring}", "-v")
@@ -600,7 +600,7 @@ def test_an_inlet_that_was_made_anew_while_nothing_was_sent_misses_nothing(spawn
 
 
 @short
-def test_that_a_writer_was_killed_is_said_once(run, spawn, feed, ring, sink):
+def test_that_a_writer_was_killed_is_reported_once(run, spawn, feed, ring, sink):
     """Although frames that go the other way wake the reader again and again."""
     writer = feed(ring)
     relay = spawn("relay", f"shm://{ring}", "--to", f"udpout://127.0.0.1:{sink.getsockname()[1]}")

@@ -58,7 +58,7 @@ def pass_frames(vehicle, station, count):
         station.until(frame)
 
 
-def test_a_flood_of_invented_peers_takes_nothing_from_those_who_talk(pair):
+def test_a_flood_of_invented_peers_takes_nothing_from_active_peers(pair):
     """Half to four fifths of the frames were lost when each newcomer became a peer."""
     router, vehicle, station = pair
     count, sent = 1000, []
@@ -81,7 +81,7 @@ def test_a_flood_of_invented_peers_takes_nothing_from_those_who_talk(pair):
     assert len(router.links()) <= 256
 
 
-def test_a_flood_of_peers_that_repeat_takes_nothing_from_those_who_talk(pair):
+def test_a_flood_of_peers_that_repeat_takes_nothing_from_active_peers(pair):
     """Half of the frames were lost, and others came seconds late, when each sender that repeats became a peer."""
     router, vehicle, station = pair
     count, sent = 500, []

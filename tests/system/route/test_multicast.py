@@ -44,7 +44,7 @@ def test_two_listeners_of_one_machine_hear_the_other_machine(machines, start, ur
     assert relay.alive
 
 
-def test_hops_are_one_unless_said(machines, start):  # noqa: F811
+def test_hops_are_one_unless_set(machines, start):  # noqa: F811
     here, there = machines
     sock = there.socket()
     sock.setsockopt(socket.IPPROTO_IP, IP_RECVTTL, 1)

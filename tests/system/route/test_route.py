@@ -344,7 +344,7 @@ def test_p5_flood_sends_an_unseen_target_to_all(net):
 
 
 @pytest.mark.short
-def test_p6_a_recording_goes_on_in_a_new_file(spawn, tmp_path):
+def test_p6_a_recording_continues_in_a_new_file(spawn, tmp_path):
     port = routers.udp_port()
     router = Router(spawn, f"udpin://127.0.0.1:{port}", f"tlog://{tmp_path}/dump.tlog?rotate_every=1")
     end, sent = UdpEnd(("127.0.0.1", port)), []

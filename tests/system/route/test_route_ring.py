@@ -360,7 +360,7 @@ def test_the_inlet_of_somebody_who_lives_is_left_alone(run, ring, tmp_path):
 
 
 @pytest.mark.parametrize("how", ["rm", "shm remove"])
-def test_a_ring_that_somebody_removes_is_made_anew(tapped, run, how):
+def test_a_ring_that_somebody_removes_is_created_again(tapped, run, how):
     net = tapped()
     net.sent_by(net.vehicle, heartbeat(), attitude())
     number = shared(net.ring).stat().st_ino
@@ -378,7 +378,7 @@ def test_a_ring_that_somebody_removes_is_made_anew(tapped, run, how):
                                                                        what="the links' names").values()
 
 
-def test_an_inlet_that_somebody_removes_is_made_anew(tapped, app):
+def test_an_inlet_that_somebody_removes_is_created_again(tapped, app):
     net = tapped()
     net.sent_by(net.vehicle, heartbeat())
     place = net.inlet
@@ -418,7 +418,7 @@ def test_a_name_that_another_writer_took_meanwhile(tapped, spawn, run):
     assert net.router.process.stderr.count("trying again every second") == 1
 
 
-def test_own_heartbeats_are_not_for_who_reads_the_ring(tapped, app):
+def test_own_heartbeats_are_not_for_readers_of_the_ring(tapped, app):
     net = tapped(rules={"heartbeat": "77/66"})
     app(net.inlet).send(heartbeat((30, 1)))
     harness.wait_for(lambda: any("#@" in link["link"] for link in net.router.links()), what="the sender")
@@ -706,7 +706,7 @@ def test_two_hundred_senders_come_and_go(tapped):
 
 # ---- hostile neighbours ----------------------------------------------------------------------------------------------
 
-def test_a_ring_that_a_neighbour_shortens_ends_and_the_routing_goes_on(tapped, run):
+def test_a_ring_that_a_neighbour_shortens_ends_and_the_routing_continues(tapped, run):
     """A member of the group may do that with mode=0660. It was the end of the router, by SIGBUS."""
     net = tapped()
     net.sent_by(net.vehicle, heartbeat(), attitude())
@@ -722,7 +722,7 @@ def test_a_ring_that_a_neighbour_shortens_ends_and_the_routing_goes_on(tapped, r
     assert net.page(run)[0]["ring_dropped"] >= 1  # the frame that met the lost ring is counted
 
 
-def test_a_counter_page_that_a_neighbour_shortens_is_made_anew(tapped, run):
+def test_a_counter_page_that_a_neighbour_shortens_is_created_again(tapped, run):
     net = tapped()
     net.sent_by(net.vehicle, heartbeat(), attitude())
     os.truncate(shared(net.ring, ".stat"), 0)
@@ -871,7 +871,7 @@ def test_a_counter_page_that_another_user_took_costs_no_ring(ring, program, spaw
 
 
 @pytest.mark.parametrize("what, said", [("", "the router runs without a ring"), (".stat", "no counter page for ring")])
-def test_who_may_write_the_ring_keeps_no_router_down(tapped, tmp_path, what, said):
+def test_a_user_who_may_write_the_ring_keeps_no_router_down(tapped, tmp_path, what, said):
     """With mode=0660, members of the group can hold the lock by which a live writer is known."""
     file = tmp_path / "r.toml"
     file.write_text('[ring]\nmode = "0660"\n')

@@ -125,7 +125,7 @@ def test_a_missing_port_is_awaited(spawn, port, tmp_path):
     ("serial:///dev/null", 2, "/dev/null is not a serial port"),
     ("/dev/ttyACM0,fast", 2, "fast"),
 ])
-def test_what_cannot_work_is_said_at_once(run, url, status, said):
+def test_what_cannot_work_is_reported_at_once(run, url, status, said):
     done = run("listen", url)
 
     assert done.status == status and said in done.stderr

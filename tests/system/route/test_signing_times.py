@@ -140,7 +140,7 @@ def test_a_clock_that_was_set_back_does_not_bring_old_times_again(border, udp_so
 
 
 @pytest.mark.parametrize("sig", [signal.SIGTERM, signal.SIGKILL])
-def test_a_relay_goes_on_where_the_last_one_stopped(spawn, udp_port, udp_socket, key, sig):
+def test_a_relay_continues_where_the_last_one_stopped(spawn, udp_port, udp_socket, key, sig):
     ahead = ticks() + 3600 * 100_000
     (key.parent / "link.key.state").write_text(f"mavloom signing times 1\nsigned {ahead}\n")
     port, far, vehicle, used = udp_port(), udp_socket(), udp_socket(), []
@@ -166,7 +166,7 @@ def test_the_file_is_for_its_owner_only(border, key):
     assert sorted(path.name for path in key.parent.iterdir()) == ["link.key", "link.key.state"]
 
 
-def test_a_file_that_cannot_be_written_is_told_and_routing_goes_on(border, udp_socket, key):
+def test_a_file_that_cannot_be_written_is_reported_and_routing_continues(border, udp_socket, key):
     (key.parent / "link.key.state").mkdir()
     vehicle, sender = udp_socket(), Signer()
     first, far = border()

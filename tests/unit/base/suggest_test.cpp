@@ -24,7 +24,7 @@ TEST(Suggest, FindsAWordThatWasOnlyBegun) {
     EXPECT_EQ(nearest("qu", names), "");
 }
 
-TEST(Suggest, SaysNothingWhenNothingIsNear) {
+TEST(Suggest, IsEmptyWhenNothingIsNear) {
     EXPECT_EQ(nearest("GPS_RAW_INT", names), "");
     EXPECT_EQ(nearest("", names), "");
     EXPECT_EQ(nearest("x", {}), "");

@@ -331,7 +331,7 @@ TEST(Config, KeyFilesAreReadWithFileAndLine) {
                 testing::AllOf(testing::StartsWith("r.toml:4: verify: "), HasSubstr("none.key")));
 }
 
-TEST(Config, SaysWhyAFileCannotBeRead) {
+TEST(Config, StatesWhyAFileCannotBeRead) {
     const test::TempDir dir;
     const std::vector<std::uint8_t> endless(5'000'000, '#');
     test::write_file(dir / "long.toml", endless);

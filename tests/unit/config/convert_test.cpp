@@ -127,7 +127,7 @@ TEST(ConvertMavlinkRouter, FilterIsTheOldNameOfAllowMsgIdOut) {
     EXPECT_THAT(conversion.notes, IsEmpty());
 }
 
-TEST(ConvertMavlinkRouter, AUartHas115200BaudUnlessItSaysOtherwise) {
+TEST(ConvertMavlinkRouter, AUartHas115200BaudUnlessItSetsAnother) {
     EXPECT_EQ(only_endpoint(config_of(without_tcp("[UartEndpoint u]\nDevice=/dev/ttyS0\n"))).options.baud, 115200u);
     const auto flow = config_of(without_tcp("[UartEndpoint u]\nDevice=/dev/ttyS0\nFlowControl=1\n"));
     EXPECT_EQ(only_endpoint(flow).options.flow, "rtscts");
@@ -262,7 +262,7 @@ TEST(ConvertMavlinkRouter, BytesThatAreNoTextAreAnError) {
     EXPECT_THAT(error_of("[UartEndpoint u]\nDevice=/dev/\xFF\xFE\n"), HasSubstr("main.conf:"));
 }
 
-TEST(Ini, ASectionOpenedAgainGoesOnAndTheLastValueStands) {
+TEST(Ini, ASectionOpenedAgainContinuesAndTheLastValueStands) {
     const auto sections = detail::parse_ini("[a]\nx=1\n[b]\n[A]\nX = 2 ; no comment\n; comment\n#comment\ny=z=w", "f");
 
     ASSERT_TRUE(sections);

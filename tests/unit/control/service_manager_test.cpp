@@ -50,7 +50,7 @@ private:
     int socket_ = -1;
 };
 
-TEST_F(ServiceManagerTest, TellsWhatItIsToTell) {
+TEST_F(ServiceManagerTest, ReportsItsNotifications) {
     const auto manager = ServiceManager::from_environment();
     manager.ready();
     EXPECT_EQ(received(), "READY=1");
@@ -92,7 +92,7 @@ TEST_F(ServiceManagerTest, AnotherProcesssWatchdogIsNotOurs) {
     EXPECT_EQ(ServiceManager::from_environment().watchdog_due(), MonoTime::max());
 }
 
-TEST_F(ServiceManagerTest, WithoutASocketNothingIsTold) {
+TEST_F(ServiceManagerTest, WithoutASocketThereAreNoNotifications) {
     for (const char* name : {"", "/", "@", "relative", "/nowhere/notify"}) {
         ::setenv("NOTIFY_SOCKET", name, 1);
         ::setenv("WATCHDOG_USEC", "10000000", 1);

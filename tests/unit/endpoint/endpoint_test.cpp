@@ -385,7 +385,8 @@ TEST(ParseSize, CountsBytes) {
     EXPECT_EQ(*parse_size("1GB"), 1000000000u);
     EXPECT_EQ(*parse_size("32MB"), 32000000u);
     EXPECT_EQ(*parse_size("2G"), 2147483648u);
-    for (const auto* bad : {"", "1.5M", "-1", "+1", "M", "1 M", "1T", "18446744073709551616"})
+    for (const auto* bad :
+         {"", "1.5M", "-1", "+1", "M", "1 M", " 1M", "1M\n", "1mb", "0x10", "1_000", "1T", "18446744073709551616"})
         EXPECT_FALSE(parse_size(bad)) << bad;
 }
 

@@ -118,7 +118,7 @@ TEST_F(ChannelTest, OneTakeLooksAtALimitedNumberOfFramesAndAsksForAnother) {
 
 // ---- waiting
 
-TEST_F(ChannelTest, TheDescriptorTellsOncePerPollThatFoundNothing) {
+TEST_F(ChannelTest, TheDescriptorReportsOncePerPollThatFoundNothing) {
     ChannelReader reader(channel, {.system = 2});
     const int fd = *reader.event_fd();
     EXPECT_EQ(read_count(fd), 1u);  // from the start, so that the first poll is made
@@ -298,7 +298,7 @@ struct HeldChannelTest : ChannelTest {
     }
 };
 
-TEST_F(HeldChannelTest, ReadingMakesRoomAndTellsItOnce) {
+TEST_F(HeldChannelTest, ReadingMakesRoomAndReportsItOnce) {
     fill();
     ASSERT_TRUE(reader->take(batch, 1));
     EXPECT_EQ(calls, 0);  // not yet enough
@@ -338,14 +338,14 @@ TEST_F(HeldChannelTest, AReaderThatIsDestroyedHoldsNothing) {
     EXPECT_TRUE(channel->has_room());
 }
 
-TEST_F(HeldChannelTest, AClosedChannelTellsOfNoRoom) {
+TEST_F(HeldChannelTest, AClosedChannelReportsNoRoom) {
     fill();
     channel->close();
     reader->close();
     EXPECT_EQ(calls, 0);
 }
 
-TEST_F(HeldChannelTest, NothingIsMissedWhileTheLoopThreadPausesAndGoesOn) {
+TEST_F(HeldChannelTest, NothingIsMissedWhileTheLoopThreadPausesAndContinues) {
     std::atomic<bool> woken{true};
     channel->hold_for(reader.get(), [&] { woken = true; });
     std::thread loop([&] {

@@ -70,7 +70,7 @@ TEST(FrameRing, WrapsAnywhereWithoutTearingAFrame) {
     EXPECT_EQ(reader.missed, 0u);
 }
 
-TEST(FrameRing, OverwritesTheOldestAndTellsEachReaderHowMany) {
+TEST(FrameRing, OverwritesTheOldestAndCountsWhatEachReaderMissed) {
     FrameRing ring(smallest_buffer);
     Reader slow(ring), fast(ring);
     constexpr std::uint32_t last = 10'000;

@@ -118,7 +118,7 @@ TEST(Hub, OneServesAllAndEndsWithTheLast) {
     EXPECT_NE(Hub::get().value(), nullptr);
 }
 
-TEST(Hub, WhatCannotBeOpenedSaysWhyAndLeavesTheHubAsItWas) {
+TEST(Hub, WhatCannotBeOpenedStatesWhyAndLeavesTheHubAsItWas) {
     Opened taken("udpin://127.0.0.1:0");
     const auto channel = make_channel();
     const ChannelReader reader(channel, {});
@@ -204,7 +204,7 @@ TEST(HubLinks, AreFlushedOnceAllIsSentOrNobodyIsThere) {
 }
 
 // A peer that never reads: its frames wait in its own queue, which drops by its policy. Other links are served.
-TEST(Hub, APeerThatDoesNotReadHoldsNoOtherLinkUp) {
+TEST(Hub, APeerThatDoesNotReadDelaysNoOtherLink) {
     Opened blocked("tcpin://127.0.0.1:0?queue_bytes=64KiB"), served("udpin://127.0.0.1:0");
     const auto silent = PlainSocket::connected_tcp(blocked.port(), 4096);
     ASSERT_TRUE(blocked.has_peer());
@@ -397,7 +397,7 @@ TEST(Fork, AnObjectKnowsWhetherThisProcessMadeIt) {
     EXPECT_EQ(forks(), before);
 }
 
-TEST(Fork, AChildMakesAHubOfItsOwnAndTheParentsGoesOn) {
+TEST(Fork, AChildMakesAHubOfItsOwnAndTheParentsContinues) {
     if (!test::child_may_start_threads) GTEST_SKIP() << "the child starts threads";
     Opened link("udpin://127.0.0.1:0");
     const pid_t child = ::fork();

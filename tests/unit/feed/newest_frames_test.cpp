@@ -54,7 +54,7 @@ TEST_F(NewestFramesTest, EachSourceAndIdHasItsNewest) {
     EXPECT_FALSE(newest.has(MessageId{1}));
 }
 
-TEST_F(NewestFramesTest, SensorsOfOneMessageAreToldApartByNumberOrText) {
+TEST_F(NewestFramesTest, SensorsOfOneMessageAreDistinguishedByNumberOrText) {
     put(battery(3));
     put(battery(7));
     put(named_float("left"));

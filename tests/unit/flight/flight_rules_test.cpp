@@ -113,7 +113,7 @@ TEST_F(MissionTest, TakesOffByItselfIfTheFirstItemIsAWaypoint) {
     EXPECT_TRUE(rig.was_said("Climb to 6.0 meters above home"));
 }
 
-TEST_F(MissionTest, JumpsAsOftenAsTold) {
+TEST_F(MissionTest, JumpsAsOftenAsRequested) {
     upload({takeoff_to(8), waypoint(6, 0, 8), waypoint(0, 0, 8), rig.action(MAV_CMD_DO_JUMP, {1, 2}), waypoint(0, 6, 8)});
     start();
     ASSERT_TRUE(fly_until(MissionState::complete, 120));

@@ -46,7 +46,7 @@ TEST(Flight, FindsItsPositionThenItsHomeThenIsReady) {
     EXPECT_EQ(rig.mode(), "Hold");
 }
 
-TEST(Flight, IsReadyAtOnceIfToldSo) {
+TEST(Flight, IsReadyAtOnceIfRequested) {
     FlightRig rig(ready);
     EXPECT_EQ(rig.flight.unready(), 0u);
     EXPECT_TRUE(rig.arm().is_accepted());
@@ -127,7 +127,7 @@ TEST(Arming, ATerminatedVehicleStaysSo) {
 
 // --- Take-off and landing
 
-TEST(TakeOff, TellsTheStoryOfPx4) {
+TEST(TakeOff, ReportsTheStatesOfPx4) {
     FlightRig rig(ready);
     rig.run(1);
     ASSERT_TRUE(rig.flight.take_off({.altitude = 499.4}).is_accepted());  // disarmed: it waits

@@ -151,7 +151,7 @@ TEST_F(SensorsTest, GpsSamplesEightTimesASecond) {
     EXPECT_NEAR(speed.deviation(), 0.024, 0.003);
 }
 
-TEST_F(SensorsTest, FailuresTakeTheSensorAway) {
+TEST_F(SensorsTest, FailuresRemoveTheSensor) {
     sensors.acquire_gps(true);
     run(1);
     const Vector3 magnetic = sensors.imu().magnetic;

@@ -47,7 +47,7 @@ TEST_F(CrowdsTest, OfEqualCrowdsThatWithTheLongestSilentLosesIt) {
     EXPECT_EQ(sut().largest().longest_silent, first);
 }
 
-TEST_F(CrowdsTest, ThoseWhoTalkAreNoCrowd) {
+TEST_F(CrowdsTest, ActivePeersAreNoCrowd) {
     for (int i = 0; i < 3; ++i) add("10.0.0.9", true);
     EXPECT_EQ(sut().largest().size, 0u);
     EXPECT_FALSE(sut().has_room_for(address("10.0.0.2")));

@@ -191,7 +191,7 @@ TEST_F(LinksSigning, AMissingKeyIsAnError) {
 }
 
 // A receiver keeps a time for each link id.
-TEST_F(LinksSigning, AnEndpointThatIsOpenedAnewSignsAsTheSameLink) {
+TEST_F(LinksSigning, AnEndpointThatIsOpenedAgainSignsAsTheSameLink) {
     Node node;
     const auto first = PlainSocket::udp(), second = PlainSocket::udp();
     const auto url = [&](const PlainSocket& to, const char* more) {

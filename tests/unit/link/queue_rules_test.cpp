@@ -42,7 +42,7 @@ TEST(QueueRules, PiecesAndUnknownIdsAreNeverReplaced) {
     EXPECT_EQ(key_of(131, 0, "x"), 0u);
 }
 
-TEST(QueueRules, TheKeyTellsSourceMessageAndInstance) {
+TEST(QueueRules, TheKeyContainsSourceMessageAndInstance) {
     EXPECT_EQ(key_of(30, 0, "a"), key_of(30, 0, "b")) << "another value of ATTITUDE is the same thing";
     EXPECT_NE(key_of(30, 0, "a"), key_of(33, 0, "a"));
     EXPECT_NE(key_of(30, 0, "a", 1), key_of(30, 0, "a", 2));

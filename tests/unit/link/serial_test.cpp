@@ -113,7 +113,7 @@ TEST_F(LinksSerial, APortThatIsRemovedAndMadeAgainComesBack) {
     ASSERT_TRUE(collect(second, got, [&] { return got == heartbeat(3); }));
 }
 
-TEST_F(LinksSerial, WhileTurnsGoOnARequiredPortIsAwaited) {
+TEST_F(LinksSerial, WhileTurnsContinueARequiredPortIsAwaited) {
     node.poll();
     node.add("serial://" + name + "?required=true");
     EXPECT_THAT(node.refused("serial:///dev/null?required=true").text, HasSubstr("is not a serial port"));
@@ -224,7 +224,7 @@ TEST_F(LinksSerial, SendsNothingBeforeTheBaudRateIsKnown) {
     EXPECT_THAT(node.recorder.ups, SizeIs(0));
 }
 
-TEST_F(LinksSerial, ADriverWithoutLowLatencyIsTold) {
+TEST_F(LinksSerial, ADriverWithoutLowLatencyIsReported) {
     const Pty far;
     node.add("serial://" + far.device() + "?low_latency=true");
     node.poll();

@@ -178,7 +178,7 @@ TEST_F(SigningTimes, AnotherKeyInTheFileHasHeardNobody) {
     EXPECT_THAT(content(file), ::testing::Not(HasSubstr("heard")));  // neither what the file held
 }
 
-TEST_F(SigningTimes, APipeInPlaceOfTheFileIsToldAndHoldsNobodyUp) {
+TEST_F(SigningTimes, APipeInPlaceOfTheFileIsReportedAndDelaysNobody) {
     ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
     KeyStates states;
     (void)states.open(key, *wire::SigningKey::load(key), notices);
@@ -186,7 +186,7 @@ TEST_F(SigningTimes, APipeInPlaceOfTheFileIsToldAndHoldsNobodyUp) {
     EXPECT_THAT(notices, ElementsAre(HasSubstr("link.key.state is not a regular file")));
 }
 
-TEST_F(SigningTimes, ABrokenFileIsToldAndBeginsAnew) {
+TEST_F(SigningTimes, ABrokenFileIsReportedAndStartsOver) {
     write(file, "nonsense");
     KeyStates states;
     (void)states.open(key, *wire::SigningKey::load(key), notices);
@@ -195,7 +195,7 @@ TEST_F(SigningTimes, ABrokenFileIsToldAndBeginsAnew) {
     EXPECT_EQ(content(file), fmt::format("mavloom signing times 1\nsigned 0\n{}", key_line));
 }
 
-TEST_F(SigningTimes, AFileThatCannotBeWrittenIsToldAndNotFatal) {
+TEST_F(SigningTimes, AFileThatCannotBeWrittenIsReportedAndNotFatal) {
     std::filesystem::create_directory(file);
     KeyStates states;
     const auto signature = Signature::load(options(true, true), 0, states, notices);

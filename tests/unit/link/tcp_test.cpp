@@ -280,7 +280,7 @@ TEST(LinksTcpOut, BindFixesTheLocalSide) {
 }
 
 // A listener whose backlog is full does not answer: the connect stays under way.
-TEST(LinksTcpOut, ABlackHoleHoldsNobodyUp) {
+TEST(LinksTcpOut, ABlackHoleDelaysNobody) {
     const PlainSocket hole(SOCK_STREAM);
     ASSERT_EQ(::listen(hole.fd(), 0), 0);
     std::vector<PlainSocket> filling;

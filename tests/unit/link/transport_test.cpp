@@ -102,7 +102,7 @@ TEST_P(LinksTransport, CountsPerLink) {
     EXPECT_EQ(counters.lost.value(), 2u) << "2, 3 and 4 were missing, then 4 came late";
 }
 
-TEST_P(LinksTransport, NamesTellPeersApart) {
+TEST_P(LinksTransport, NamesDistinguishPeers) {
     marry();
     Node third;
     const auto third_out = third.add(call_url());

@@ -303,7 +303,7 @@ TEST(LinksUdp, TheLongestIdleOfThreeHundredPeersGoFirst) {
     EXPECT_EQ(peers[299].read(), heartbeat(1));
 }
 
-TEST(LinksUdp, AFloodOfStrangersDoesNotPushOutThoseWhoTalk) {
+TEST(LinksUdp, AFloodOfStrangersDoesNotPushOutActivePeers) {
     Node node;
     const auto in = node.add("udpin://127.0.0.1:0?max_peers=2");
     const auto a = PlainSocket::udp(), b = PlainSocket::udp();
@@ -409,7 +409,7 @@ TEST(LinksUdp, KernelDropsAreCountedAlsoBehindTheLastDatagram) {
     EXPECT_GT(node.info(in).counters->kernel_drop.value(), 0u);
 }
 
-TEST(LinksUdp, TheReceiveBufferObtainedIsTold) {
+TEST(LinksUdp, TheReceiveBufferObtainedIsReported) {
     Node node;
     const auto in = node.add("udpin://127.0.0.1:0?rcvbuf=100000");
     node.poll();

@@ -98,7 +98,7 @@ TEST_F(LinksUdpBroadcast, JunkIsNoAnswer) {
     EXPECT_TRUE(hears(out, heartbeat(0)));
 }
 
-TEST_F(LinksUdpBroadcast, FixedGoesOnBroadcasting) {
+TEST_F(LinksUdpBroadcast, FixedContinuesBroadcasting) {
     const auto out = add("?fixed=true");
     node.poll();
     const auto answering = PlainSocket::udp();

@@ -68,6 +68,13 @@ TEST(LinksUdpMulticastSetup, AnInterfaceThatIsNotThereIsAwaitedOrRefused) {
     EXPECT_EQ(Node().refused(required).code, SetupCode::not_found);
 }
 
+TEST(LinksUdpMulticastSetup, TheInterfaceOfAZoneIsAwaitedToo) {
+    Node node;
+    node.add("udpmcast://[ff02::4d41%25no-such-one]:14550");
+    ASSERT_TRUE(until([&] { return !node.recorder.notices.empty(); }, node));
+    EXPECT_THAT(node.recorder.notices[0], HasSubstr("there is no interface 'no-such-one'; there are lo"));
+}
+
 TEST(LinksUdpMulticastSetup, APortThatIsNotSharedIsInUse) {
     sockaddr_in any{};
     any.sin_family = AF_INET;

@@ -134,7 +134,7 @@ TEST(MessageBuilder, ReadsEnumNamesAndFlags) {
               "'MAV_TYPE_QUADROTOR'?");
 }
 
-TEST(MessageBuilder, SaysWhatWasExpected) {
+TEST(MessageBuilder, StatesWhatWasExpected) {
     MessageBuilder sut(sample);
     EXPECT_EQ(error_of(sut.set_from_text(field(sample, "eph"), "abc")), "SAMPLE.eph: 'abc' is not a whole number");
     EXPECT_EQ(error_of(sut.set_from_text(field(sample, "eph"), "1.5")), "SAMPLE.eph: '1.5' is not a whole number");

@@ -29,7 +29,7 @@ TEST(Json, PrintsFieldsInTheOrderOfTheDefinition) {
               R"("type":2,"autopilot":12,"base_mode":129,"custom_mode":9,"system_status":4,"mavlink_version":3)");
 }
 
-TEST(Json, SaysVersionAndSignature) {
+TEST(Json, StatesVersionAndSignature) {
     const SampleFrame v1(heartbeat, std::vector<std::uint8_t>(9), wire::Version::v1);
     EXPECT_NE(json_of(v1.received()).find(R"("name":"HEARTBEAT","v":1,"signed":false,"fields":{)"), std::string::npos);
 

@@ -24,7 +24,7 @@ TEST(Address, KnowsTheScopeOfALinkLocalAddress) {
     EXPECT_EQ(by_number->text(), "[fe80::1%1]:9");
 }
 
-TEST(Address, TellsAnyMulticastAndBroadcast) {
+TEST(Address, RecognisesMulticastAndBroadcast) {
     EXPECT_TRUE(Address::parse("0.0.0.0", 1)->is_any());
     EXPECT_TRUE(Address::parse("::", 1)->is_any());
     EXPECT_FALSE(Address::parse("0.0.0.1", 1)->is_any());

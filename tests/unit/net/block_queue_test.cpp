@@ -181,7 +181,7 @@ TEST(BlockQueue, ABlockBegunIsNeverDropped) {
     EXPECT_TRUE(queue.empty());
 }
 
-TEST(BlockQueue, RewindBeginsTheBlockAnew) {
+TEST(BlockQueue, RewindStartsTheBlockOver) {
     BlockQueue queue = queue_of(100);
     push(queue, "first");
     push(queue, "second");

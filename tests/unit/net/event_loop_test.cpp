@@ -43,7 +43,7 @@ struct EventLoopTest : ::testing::Test {
     std::unique_ptr<EventLoop> loop = std::move(*EventLoop::create());
 };
 
-TEST_F(EventLoopTest, TellsWhatIsReadable) {
+TEST_F(EventLoopTest, ReportsWhatIsReadable) {
     const Pipe pipe;
     Handler handler;
     ASSERT_TRUE(loop->watch(pipe.read.get(), true, false, handler));

@@ -70,7 +70,7 @@ TEST_F(LocalSocketTest, GivesBytesSenderAndTimeOfEachDatagram) {
     EXPECT_EQ(socket->receive(), IoResult<std::size_t>(tl::unexpected(IoError::would_block)));
 }
 
-TEST_F(LocalSocketTest, SaysHowMuchOfADatagramItHasNoRoomFor) {
+TEST_F(LocalSocketTest, ReportsHowMuchOfADatagramItHasNoRoomFor) {
     auto socket = LocalSocket::open(path, 0600);
     ASSERT_TRUE(socket);
     const Fd nobody = sender("");
@@ -112,7 +112,7 @@ TEST_F(LocalSocketTest, RefusesATakenPlaceAndAPathThatIsTooLong) {
 
 // The kernel reports "refused" once, and not even that to a batch whose first datagrams went; from then on "not
 // connected".
-TEST_F(LocalSocketTest, ASenderWhoseFarSideWentIsToldSoEachTime) {
+TEST_F(LocalSocketTest, ASenderWhoseFarSideWentGetsAnErrorEachTime) {
     auto far_side = LocalSocket::open(path, 0600);
     ASSERT_TRUE(far_side);
     auto near_side = LocalSender::connect(path);

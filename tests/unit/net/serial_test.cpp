@@ -91,7 +91,7 @@ TEST(SerialPort, IsNotSharedUnawares) {
     EXPECT_TRUE(SerialPort::open(far.device(), {}));
 }
 
-TEST(SerialPort, SaysWhatIsNone) {
+TEST(SerialPort, RefusesOtherDevices) {
     EXPECT_EQ(SerialPort::open("/dev/no-such-port", {}).error().code, SetupCode::not_found);
     EXPECT_EQ(SerialPort::open("/dev", {}).error().code, SetupCode::usage);
     const auto null = SerialPort::open("/dev/null", {});
@@ -100,7 +100,7 @@ TEST(SerialPort, SaysWhatIsNone) {
     EXPECT_EQ(null.error().text, "/dev/null is not a serial port");
 }
 
-TEST(SerialPort, TellsThatItWasUnplugged) {
+TEST(SerialPort, ReportsThatItWasUnplugged) {
     Pty far;
     SerialPort port = std::move(*SerialPort::open(far.device(), {}));
     far.unplug();
@@ -189,7 +189,7 @@ TEST_F(SerialNames, ItsFoldersAreThoseThatExist) {
     EXPECT_THAT(SerialDevice(at("link"), at("by-id")).folders(), ElementsAre(root.string()));
 }
 
-TEST_F(SerialNames, AFolderTellsOfNewNames) {
+TEST_F(SerialNames, AFolderReportsNewNames) {
     FolderWatch watch = std::move(*FolderWatch::create());
     watch.add(root.string());
     watch.add("/no/such/folder");

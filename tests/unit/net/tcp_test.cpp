@@ -77,7 +77,7 @@ TEST_F(Tcp, LeavesSomeDescriptorsToTheProgram) {
     EXPECT_EQ(listener.accept().error(), IoError::would_block);
 }
 
-TEST_F(Tcp, TellsTheEndOfAStream) {
+TEST_F(Tcp, ReportsTheEndOfAStream) {
     connect();
     near = {};
     await(far.fd(), POLLIN);

@@ -124,7 +124,7 @@ TEST(TlogReader, AnEmptyFileHoldsNothing) {
     EXPECT_EQ(outcome.damaged_places, 0u);
 }
 
-TEST(TlogReader, GoesOnBehindJunkAndSaysHowMuchWasLost) {
+TEST(TlogReader, ContinuesBehindJunkAndReportsHowMuchWasLost) {
     const Bytes junk(1000, 0xfd);
     const auto outcome = read_bytes(record(t0, test::heartbeat_v2) + junk + record(t0 + 1, test::attitude_v2) +
                                     Bytes{1, 2, 3});
@@ -197,7 +197,7 @@ TEST(TlogReader, SkipsAndCountsFramesWithAnUndefinedFlag) {
     EXPECT_EQ(outcome.lost_bytes, 0u);
 }
 
-TEST(TlogReader, GoesOnBehindDamageLongerThanItsBuffer) {
+TEST(TlogReader, ContinuesBehindDamageLongerThanItsBuffer) {
     for (const std::uint8_t fill : {std::uint8_t{0}, std::uint8_t{0xfd}, std::uint8_t{0xfe}, std::uint8_t{0xff}}) {
         const Bytes junk(700'001, fill);
         const auto outcome = read_bytes(record(t0, test::heartbeat_v2) + junk + record(t0, test::attitude_v2));
@@ -208,7 +208,7 @@ TEST(TlogReader, GoesOnBehindDamageLongerThanItsBuffer) {
     }
 }
 
-TEST(TlogReader, ReadsZerosWithoutEndInConstantMemory) {
+TEST(TlogReader, ReadsEndlessZerosInConstantMemory) {
     const off_t size = std::getenv("MAVLOOM_LONG") != nullptr ? 2'000'000'000 : 200'000'000;
     const TempDir dir;
     const auto path = dir / "zeros.tlog";
@@ -283,7 +283,7 @@ TEST(TlogReader, HandsOnWhatASlowWriterHasWritten) {
     EXPECT_EQ(reader->counters().lost_bytes.value(), 0u);
 }
 
-TEST(TlogReader, TellsThatAPipeHasNothingYet) {
+TEST(TlogReader, ReportsThatAPipeHasNothingYet) {
     const TempDir dir;
     const auto path = dir / "pipe";
     ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
@@ -340,7 +340,7 @@ TEST(TlogReader, ASignalEndsTheWaitForAPipe) {
     ::close(writer);
 }
 
-TEST(TlogReader, SaysWhyAFileCannotBeOpened) {
+TEST(TlogReader, StatesWhyAFileCannotBeOpened) {
     const TempDir dir;
 
     const auto missing = TlogReader::open(dir / "none.tlog", golden_table());
@@ -351,7 +351,7 @@ TEST(TlogReader, SaysWhyAFileCannotBeOpened) {
     EXPECT_THAT(folder.error().text, testing::HasSubstr("Is a directory"));
 }
 
-TEST(TlogReader, GivesWayWhereThereIsNothingButDamage) {
+TEST(TlogReader, StopsWhereThereIsNothingButDamage) {
     const TempDir dir;
     for (const auto byte : std::initializer_list<std::uint8_t>{0x00, 0xfd, 0xfe}) {
         const test::Bytes junk(1'000'000, byte);
@@ -372,7 +372,7 @@ TEST(TlogReader, GivesWayWhereThereIsNothingButDamage) {
 }
 
 // A program that reads one message of a long recording handles signals although the message does not occur.
-TEST(TlogReader, GivesWayWhereOnlyOtherMessagesAre) {
+TEST(TlogReader, StopsWhereOnlyOtherMessagesAre) {
     const TempDir dir;
     Bytes content;
     for (int i = 0; i < 1000; ++i) content = std::move(content) + record(t0, test::heartbeat_v2);

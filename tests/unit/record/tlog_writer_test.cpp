@@ -209,7 +209,7 @@ TEST(TlogWriter, WritesToAPipe) {
     EXPECT_EQ(received, heartbeat_record);
 }
 
-TEST(TlogWriter, SaysWhyAFileCannotBeMade) {
+TEST(TlogWriter, StatesWhyAFileCannotBeMade) {
     const TempDir dir;
 
     const auto no_folder = TlogWriter::create(dir / "none" / "x.tlog");

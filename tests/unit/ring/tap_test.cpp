@@ -87,7 +87,7 @@ TEST(RingTap, GoesWithRingAndPage) {
     EXPECT_FALSE(shm::read_counters(name.text()));
 }
 
-TEST(RingTap, GoesWithTheRingThatIsBeingMadeAnew) {
+TEST(RingTap, GoesWithTheRingThatIsBeingCreatedAgain) {
     const RingName name;
     Node node;
     std::binary_semaphore ready{0};
@@ -102,7 +102,7 @@ TEST(RingTap, GoesWithTheRingThatIsBeingMadeAnew) {
     EXPECT_FALSE(shm::ring_status(name.text()));
 }
 
-TEST(RingTap, WhatIsRemovedIsMadeAnewWithTheNames) {
+TEST(RingTap, WhatIsRemovedIsCreatedAgainWithTheNames) {
     const RingName name;
     Node node;
     const auto in = node.add("udpin://127.0.0.1:0");
@@ -152,7 +152,7 @@ TEST(RingTap, LinksOfARouterThatWasKilledKeepTheirNamesAndNumbers) {
     EXPECT_EQ(page->links, names);
 }
 
-TEST(RingTap, GoesOnBehindTheNumbersOfRecordsWhereThereIsNoPage) {
+TEST(RingTap, ContinuesBehindTheNumbersOfRecordsWhereThereIsNoPage) {
     const RingName name;
     leave_a_ring(name, 3);
     ASSERT_EQ(::unlink((name.path() + ".stat").c_str()), 0);

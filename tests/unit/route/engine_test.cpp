@@ -782,7 +782,7 @@ TEST(Engine, SourcesOnAThousandLinksStayWithinTheBound) {
     EXPECT_EQ(sut.engine.counters().routes_evicted.value(), 100000 - Engine::max_routes);
 }
 
-TEST(Engine, RouteListTellsLinkSourceAgeAndFrames) {
+TEST(Engine, RouteListReportsLinkSourceAgeAndFrames) {
     Network sut;
     sut.links(2);
     sut.hears(2, vehicle);

@@ -19,7 +19,7 @@ constexpr Source source(std::uint8_t system, std::uint8_t component) {
     return {SystemId{system}, ComponentId{component}};
 }
 
-TEST(Filter, AdmitsAllUntilToldOtherwise) {
+TEST(Filter, AdmitsAllByDefault) {
     const Filter sut;
 
     EXPECT_TRUE(sut.admits_all());

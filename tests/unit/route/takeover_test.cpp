@@ -113,7 +113,9 @@ TEST_F(Takeover, FortyVehiclesOfOneLinkGetTheirCommandsBack) {
         all_send(2);
         if (i > 0) all_send(1);
         sut.wait(100ms);
-        if (i == 35) EXPECT_THAT(sut.command(3, gcs, {40, 1}), ElementsAre(2)) << "its claim waits for a place";
+        if (i == 35) {
+            EXPECT_THAT(sut.command(3, gcs, {40, 1}), ElementsAre(2)) << "its claim waits for a place";
+        }
     }
 
     for (std::uint8_t system = 1; system <= 40; ++system)

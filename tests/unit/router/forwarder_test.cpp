@@ -120,7 +120,7 @@ Bytes command(Id target) {
                       {{"target_system", target.system}, {"target_component", target.component}, {"param1", ++unique}});
 }
 
-TEST(Forwarder, SendsWhereTheEngineSaysAndCountsTheTraffic) {
+TEST(Forwarder, SendsWhereTheEngineDecidesAndCountsTheTraffic) {
     ForwarderAtWork router;
     for (int i = 0; i < 3; ++i) router.link();
 
@@ -144,7 +144,33 @@ TEST(Forwarder, ALinkThatWentGetsNothing) {
     EXPECT_THAT(router.reached(), ElementsAre(3));
 }
 
-TEST(Forwarder, VouchesOnlyForVerifiedFrames) {
+TEST(Forwarder, VerdictsContinueWhenALinkComesUpAgain) {
+    ForwarderAtWork router;
+    RoutedEndpoint& endpoint = router.link("tcpout://127.0.0.1:1");
+    router.link();
+    router.hears(1, attitude());
+
+    router.sut.remove_link(LinkId{1});
+    ASSERT_NE(router.sut.verdicts(LinkId{1}), nullptr);
+    EXPECT_EQ(router.sut.verdicts(LinkId{1})->forwarded.value(), 1u);
+
+    ASSERT_TRUE(router.sut.add_link(LinkId{1}, endpoint));
+    router.hears(1, attitude());
+    EXPECT_EQ(router.sut.verdicts(LinkId{1})->forwarded.value(), 2u);
+}
+
+TEST(Forwarder, VerdictsOfALinkThatIsGoneAreForgotten) {
+    ForwarderAtWork router;
+    router.link();
+    router.sut.remove_link(LinkId{1});
+    router.links.there.erase(1);
+
+    (void)router.sut.look_after();
+
+    EXPECT_EQ(router.sut.verdicts(LinkId{1}), nullptr);
+}
+
+TEST(Forwarder, SignsOnlyVerifiedFrames) {
     ForwarderAtWork router;
     router.link("udpin://127.0.0.1:1?verify=key");
     router.link("udpin://127.0.0.1:2");
@@ -219,7 +245,7 @@ TEST(Forwarder, AVehicleThatConnectsAgainFromItsHostIsBackAtOnce) {
     EXPECT_THAT(reached_after_reconnect_from("tcp#10.0.0.2:1000"), IsEmpty());
 }
 
-TEST(Forwarder, TheOwnHeartbeatGoesToWhomTheRouterCalls) {
+TEST(Forwarder, TheOwnHeartbeatGoesWhereTheRouterInitiatesContact) {
     ForwarderAtWork router({.heartbeat = std::pair<std::uint8_t, std::uint8_t>{255, 193}});
     router.link("udpout://127.0.0.1:1");
     router.link("udpin://127.0.0.1:2");
@@ -296,7 +322,7 @@ TEST(Forwarder, RefusesLinksBeyondTheBound) {
     EXPECT_FALSE(router.sut.add_link(LinkId{route::Engine::max_links + 1}, at));
 }
 
-TEST(Forwarder, TwoSendersOfOneIdAreToldOnceByTheNamesOfTheirLinks) {
+TEST(Forwarder, TwoSendersOfOneIdAreReportedOnceWithTheNamesOfTheirLinks) {
     ForwarderAtWork router;
     router.link();
     router.link();
@@ -308,7 +334,7 @@ TEST(Forwarder, TwoSendersOfOneIdAreToldOnceByTheNamesOfTheirLinks) {
     EXPECT_THAT(router.sut.look_after(), IsEmpty());
 }
 
-TEST(Forwarder, AVehicleThatIsLearnedOnASecondLinkIsToldOnceByTheNamesOfTheLinks) {
+TEST(Forwarder, AVehicleThatIsLearnedOnASecondLinkIsReportedOnceWithTheNamesOfTheLinks) {
     ForwarderAtWork router;
     router.link();
     router.link();

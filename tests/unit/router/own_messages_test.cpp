@@ -61,7 +61,7 @@ struct OwnMessagesAtWork {
     OwnMessages sut;
 };
 
-TEST(OwnMessages, GoToWhomTheEndpointCalls) {
+TEST(OwnMessages, GoWhereTheEndpointInitiatesContact) {
     for (const auto* calls : {"udpout://127.0.0.1:1", "udpbcast://10.0.0.255:1", "udpmcast://239.0.0.1:1",
                               "tcpout://127.0.0.1:1", "serial:///dev/ttyS0"}) {
         EXPECT_TRUE(wants_heartbeat(*endpoint::parse_endpoint(calls))) << calls;
@@ -125,7 +125,7 @@ TEST(OwnMessages, OneSequenceForAllThatALinkGets) {
     EXPECT_THAT(router.sent, ElementsAre(Sent{1, 0, 42, 191, 0}, Sent{1, 66, 42, 191, 1}, Sent{1, 0, 42, 191, 2}));
 }
 
-TEST(OwnMessages, AnotherIdBeginsAnew) {
+TEST(OwnMessages, AnotherIdStartsOver) {
     OwnMessagesAtWork router(config_of({255, 191}));
     router.sut.add(first, true, start);
     (void)router.run(start, 1s);

@@ -114,7 +114,7 @@ TEST_F(RouterTest, AReloadTouchesOnlyWhatChanged) {
                                      udpin(changed) + ": added", udpin(fresh) + ": added"));
 }
 
-TEST_F(RouterTest, WhatCannotBeOpenedIsLeftOutAndItsFormerSelfGoesOn) {
+TEST_F(RouterTest, WhatCannotBeOpenedIsLeftOutAndItsFormerSelfContinues) {
     const auto port = free_port();
     const auto taken = PlainSocket::udp();
     add(udpin(port, "?name=air"));

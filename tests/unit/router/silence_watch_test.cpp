@@ -59,7 +59,7 @@ TEST_F(Silence, EndsWithItsLink) {
     EXPECT_EQ(reports(silence_start + 3s, 60), 0u);
 }
 
-TEST(SilenceText, IsExpectedOfWhomTheEndpointCalls) {
+TEST(SilenceText, IsExpectedIfTheEndpointInitiatesContact) {
     for (const auto* calls : {"udpout://127.0.0.1:1", "tcpout://127.0.0.1:1", "serial:///dev/ttyS0"})
         EXPECT_TRUE(expects_answer(*endpoint::parse_endpoint(calls))) << calls;
     for (const auto* not_expected : {"udpin://127.0.0.1:1", "tcpin://127.0.0.1:1", "udpout://127.0.0.1:1?tap=true"})
@@ -72,7 +72,7 @@ std::string text_of(std::string_view url, const link::LinkCounters& heard = {}, 
     return silence_text({.id = px4, .endpoint = *endpoint::parse_endpoint(url), .counters = &counters}, heard);
 }
 
-TEST(SilenceText, SaysWhatToLookAt) {
+TEST(SilenceText, StatesWhatToLookAt) {
     EXPECT_THAT(text_of("udpout://127.0.0.1:18570?name=px4"),
                 AllOf(StartsWith("px4: nothing heard for 5 s; "), HasSubstr("127.0.0.1:18570"), HasSubstr("PX4")));
     EXPECT_THAT(text_of("serial:///dev/ttyACM0?baud=115200"), HasSubstr("115200 here"));

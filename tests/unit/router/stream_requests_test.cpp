@@ -25,7 +25,7 @@ TEST(StreamRequests, AsksEachSourceOnEachLinkOnceAndAgainAfter30Seconds) {
     EXPECT_FALSE(requests.heard(radio, copter, requests_start + 59s));
 }
 
-TEST(StreamRequests, ALinkThatWentIsAskedAnew) {
+TEST(StreamRequests, ALinkThatWentIsAskedAgain) {
     StreamRequests requests;
     (void)requests.heard(radio, copter, requests_start);
     (void)requests.heard(cable, copter, requests_start);

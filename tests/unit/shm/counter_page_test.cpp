@@ -148,7 +148,7 @@ TEST(CounterPage, OfALivingOwnerIsRefusedAndOfADeadOneReplaced) {
     EXPECT_TRUE(read(name).counters.empty());
 }
 
-TEST(CounterPage, TheNextWriterOfARingTakesAwayWhatADeadOneLeft) {
+TEST(CounterPage, TheNextWriterOfARingRemovesWhatADeadOneLeft) {
     const RingName name;
     const pid_t child = ::fork();
     if (child == 0) {

@@ -67,7 +67,7 @@ TEST_P(RingFollowing, CarriesOnWithTheNextWriterOfTheSameRing) {
     EXPECT_EQ(follower_.opened(), 1u);
 }
 
-TEST_P(RingFollowing, DrainsARemovedRingAndGoesOnWithTheNext) {
+TEST_P(RingFollowing, DrainsARemovedRingAndContinuesWithTheNext) {
     auto writer = open_followed(name_);
     ASSERT_TRUE(follower_.try_open());
     write_followed(writer, "old 1");
@@ -81,7 +81,7 @@ TEST_P(RingFollowing, DrainsARemovedRingAndGoesOnWithTheNext) {
     EXPECT_EQ(follower_.opened(), 2u);
 }
 
-TEST_P(RingFollowing, GoesOnWithARingOfAnotherCapacity) {
+TEST_P(RingFollowing, ContinuesWithARingOfAnotherCapacity) {
     {
         auto writer = open_followed(name_);
         write_followed(writer, "small");
@@ -126,7 +126,7 @@ TEST_P(RingFollowing, ReadsARetiredRingThatKeepsItsNameOnce) {
     EXPECT_EQ(follower_.opened(), 2u);
 }
 
-TEST_P(RingFollowing, SaysWhyWhatStandsThereCannotBeRead) {
+TEST_P(RingFollowing, StatesWhyWhatIsThereCannotBeRead) {
     test::write_file(name_.path(), std::vector<std::uint8_t>(20'000, 'x'));
     EXPECT_EQ(follower_.read(mono_now() + 1ms).error(), ReadError::no_writer);
     ASSERT_NE(follower_.error(), nullptr);

@@ -238,7 +238,7 @@ void evict_a_lossless_reader(unsigned writes, Read read) {
         failed);
 }
 
-TEST(RingSchedules, AReaderThatIsEvictedIsToldWhatItMissed) {
+TEST(RingSchedules, AReaderThatIsEvictedLearnsWhatItMissed) {
     evict_a_lossless_reader(3, [](Consumer& reader, const auto& look) {
         RingRecord record;
         for (int i = 0; i < 2; ++i) {
@@ -250,7 +250,7 @@ TEST(RingSchedules, AReaderThatIsEvictedIsToldWhatItMissed) {
     });
 }
 
-TEST(RingSchedules, AVisitorThatIsEvictedIsToldWhatItMissed) {
+TEST(RingSchedules, AVisitorThatIsEvictedLearnsWhatItMissed) {
     evict_a_lossless_reader(4, [](Consumer& reader, const auto& look) {
         return reader.visit(4, look) != Found::damaged && reader.visit(4, look) != Found::damaged;
     });

@@ -154,7 +154,7 @@ TEST(Ring, TheOldestIsOlderThanTheNewestByNearlyTheCapacity) {
     EXPECT_GE(record->sequence, 500u - 64u);
 }
 
-TEST(Ring, ALappedReaderIsToldByHowManyRecords) {
+TEST(Ring, ALappedReaderLearnsHowManyRecordsItMissed) {
     const RingName name;
     auto writer = open_writer(name, WhenFull::evict);
     auto reader = open_reader(name, lossy_oldest);
@@ -274,7 +274,7 @@ TEST(Ring, AVisitorGetsNothingBehindAHoldThatWasTakenAway) {
     EXPECT_EQ(record->sequence, 2 + record->missed);
 }
 
-TEST(Ring, AWaitingWriterGoesOnWhenTheReaderReleases) {
+TEST(Ring, AWaitingWriterContinuesWhenTheReaderReleases) {
     const RingName name;
     auto writer = open_writer(name, WhenFull::wait);
     std::jthread other;
@@ -318,7 +318,7 @@ TEST(Ring, AWaitThatEndsWroteNothingAndTheCallerCountsWhatHeGivesUp) {
     EXPECT_EQ(ring_status(name.text())->dropped, 1u);
 }
 
-TEST(Ring, EvictingTakesTheHoldAndTheReaderIsToldWhatItMissed) {
+TEST(Ring, EvictingTakesTheHoldAndTheReaderLearnsWhatItMissed) {
     const RingName name;
     auto writer = open_writer(name, WhenFull::evict);
     auto reader = open_reader(name, lossless);
@@ -453,7 +453,7 @@ TEST(Ring, AWriterOfAnotherCapacityMakesAnotherFile) {
     EXPECT_EQ(text_of(*again.read(soon())), "new");
 }
 
-TEST(Ring, RemovalInUseIsToldToBothSides) {
+TEST(Ring, RemovalInUseIsReportedToBothSides) {
     const RingName name;
     auto writer = open_writer(name);
     auto reader = open_reader(name, lossless);
@@ -542,7 +542,7 @@ TEST(Ring, AReadOnlyReaderTakesNoSlotAndHoldsNobody) {
     EXPECT_EQ(RingReader::open(name.text(), {.lossless = true, .read_only = true}).error().code, SetupCode::usage);
 }
 
-TEST(Ring, StatusTellsWhoIsAttachedAndHowFarBehind) {
+TEST(Ring, StatusShowsWhoIsAttachedAndHowFarBehind) {
     const RingName name;
     auto writer = open_writer(name, WhenFull::evict);
     const auto reader = open_reader(name, lossless);
@@ -805,7 +805,7 @@ TEST_F(RingDamage, ARecordOutOfSequenceIsDamage) {
     EXPECT_TRUE(reader.try_read());
     EXPECT_EQ(reader.try_read().error(), ReadError::damaged);
 }
-TEST_F(RingDamage, TheStatusOfADamagedRingSaysSo) {
+TEST_F(RingDamage, TheStatusOfADamagedRingReportsIt) {
     EXPECT_FALSE(ring_status(name_.text())->damaged);
     put(128, {0, 0x28, 0, 0, 0, 0, 0, 0x80});  // a tail far beyond the intent
     EXPECT_TRUE(ring_status(name_.text())->damaged);
@@ -819,7 +819,7 @@ TEST_F(RingDamage, PositionsThatCannotBeAreDamage) {
 
 // ---- processes
 
-TEST(RingProcess, AForkedChildHoldsNothingAndIsTold) {
+TEST(RingProcess, AForkedChildHoldsNothingAndGetsAnError) {
     const RingName name;
     auto writer = open_writer(name);
     auto reader = open_reader(name, lossless);

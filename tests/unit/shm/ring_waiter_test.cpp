@@ -72,7 +72,7 @@ protected:
 };
 
 // The nap after the first one is 100 ms: only the waiter can be what ends a wait of a minute.
-TEST_F(RingWaiting, TellsOfARecordThatIsWrittenWhileTheLoopSleeps) {
+TEST_F(RingWaiting, ReportsARecordThatIsWrittenWhileTheLoopSleeps) {
     auto writer = writer_of(one_);
     auto reader = reader_of(one_);
     waiter_.watch({reader.wake_word()});
@@ -87,7 +87,7 @@ TEST_F(RingWaiting, TellsOfARecordThatIsWrittenWhileTheLoopSleeps) {
     }
 }
 
-TEST_F(RingWaiting, TellsOfAnyOfSeveralRings) {
+TEST_F(RingWaiting, ReportsAnyOfSeveralRings) {
     auto first = writer_of(one_), second = writer_of(two_);
     auto reader = reader_of(one_), other = reader_of(two_);
     waiter_.watch({reader.wake_word(), other.wake_word()});
@@ -106,7 +106,7 @@ TEST_F(RingWaiting, ArmedReaderLooksAgainAtOnceWhereARecordCameMeanwhile) {
     EXPECT_TRUE(reader.poll());
 }
 
-TEST_F(RingWaiting, SaysNothingUnlessArmed) {
+TEST_F(RingWaiting, DoesNothingUnlessArmed) {
     auto writer = writer_of(one_);
     auto reader = reader_of(one_), sleeper = reader_of(one_);
     waiter_.watch({reader.wake_word()});
@@ -116,7 +116,7 @@ TEST_F(RingWaiting, SaysNothingUnlessArmed) {
     EXPECT_FALSE(loop_.woken_within(0ms));
 }
 
-TEST_F(RingWaiting, TellsWhenTheTimeIsOverThatItIsGiven) {
+TEST_F(RingWaiting, ReportsWhenTheGivenTimeIsOver) {
     auto writer = writer_of(one_);
     auto reader = reader_of(one_);
     waiter_.watch({reader.wake_word()});
@@ -169,7 +169,7 @@ TEST_F(RingWaiting, KeepsARingMappedThatItsReaderHasLeft) {
     EXPECT_TRUE(gets_record(reader));
 }
 
-TEST_F(RingWaiting, PollTellsOfAWriterThatWentAndOfOneThatCameBack) {
+TEST_F(RingWaiting, PollReportsAWriterThatWentAndOneThatCameBack) {
     auto reader = [&] {
         auto writer = writer_of(one_);
         auto opened = reader_of(one_);

@@ -33,7 +33,7 @@ TEST(FlightClock, RunsAtItsSpeed) {
 }
 
 // A loop that slept until `when` must find the vehicle due, or it would spin.
-TEST(FlightClock, HasReachedAnInstantWhenItSaysSo) {
+TEST(FlightClock, HasReachedAnInstantWhenItReportsIt) {
     for (const double speed : {0.1, 0.3, 1.0, 7.0, 33.3, 100.0}) {
         FlightClock sut(speed);
         sut.start(MonoTime{1s});

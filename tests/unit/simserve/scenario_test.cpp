@@ -96,7 +96,7 @@ TEST(Scenario, ItsNameIsThatOfItsRing) {
     EXPECT_EQ(read("[sim]\nring = \"fleet\"\nname = \"other\"\n").control_name(), "other");
 }
 
-TEST(ScenarioValues, WindComesFromWhereItIsSaidTo) {
+TEST(ScenarioValues, WindComesFromWhereItIsSetTo) {
     const auto wind = parse_wind("5,270,1.5");
     ASSERT_TRUE(wind);
     EXPECT_EQ(wind->speed_m_s, 5);

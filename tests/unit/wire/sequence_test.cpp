@@ -55,7 +55,7 @@ TEST(SequenceTracker, RecognisesARepeatedFrameAtEverySequenceNumber) {
     }
 }
 
-TEST(SequenceTracker, BeginsAnewWithTheSumsItHas) {
+TEST(SequenceTracker, StartsOverWithTheSumsItHas) {
     SequenceTracker sut;
     sut.update(TestFrame(1));
     sut.update(TestFrame(4));
@@ -68,7 +68,7 @@ TEST(SequenceTracker, BeginsAnewWithTheSumsItHas) {
     EXPECT_EQ(sut.total().resync, 0u);
 }
 
-TEST(SequenceTracker, TellsAGapOf100FromAResyncOf101) {
+TEST(SequenceTracker, DistinguishesAGapOf100FromAResyncOf101) {
     SequenceTracker sut;
     sut.update(TestFrame(0));
 
@@ -292,7 +292,7 @@ TEST(Restart, IsThatOfAnAutopilot) {
     EXPECT_EQ(camera.send(system_time, 300).verdict, Verdict::reboot);  // any component that sends SYSTEM_TIME
 }
 
-TEST(Restart, IsNotToldByAClockOfZero) {
+TEST(Restart, IsNotShownByAClockOfZero) {
     SequenceTracker sut;
     Vehicle vehicle{sut};
     vehicle.fly(100'000, 2);
