@@ -255,10 +255,10 @@ def test_record_waits_for_the_folder_of_its_file(spawn, udp_socket, tmp_path, wa
     sender.sendto(frames.attitude(2), address)
     log.parent.mkdir()
     process.wait_output("records are written again", stream="err")
+    # The frame before may have gone to the deleted file.
+    wait_for(lambda: [frame for _, frame in frames.read_tlog(log)][-1:] == [frames.attitude(2)], what="the last frame")
 
     assert process.stop().status == 130
-    # The frame before may have gone to the deleted file.
-    assert [frame for _, frame in frames.read_tlog(log)][-1] == frames.attitude(2)
 
 
 def test_a_recording_on_a_disk_that_stays_full_ends_when_it_is_asked_to(spawn, tmp_path):
