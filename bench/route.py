@@ -250,7 +250,8 @@ def main():
     options = parse_options()
     os.nice(options.nice)
     bench = Bench(Kit(options.tools, options.flight), options)
-    peers, missing = routers.at_hand(options.program, options.tools, options.peers, options.without.lower().split(","))
+    without = options.without.lower().split(",")
+    peers, missing = routers.at_hand(options.program, options.tools, options.peers.resolve(), without)
     for why in missing:
         bench.say(f"bench route: {why}")
     for load in LOADS:

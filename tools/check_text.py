@@ -4,8 +4,8 @@
 
 - Lines of Python, shell, CMake and Markdown, and C++ lines with a comment, have at most 120 characters. Exempt are
   lines without a space inside (a URL, hex data), and in Markdown tables, code blocks and lines that are one link.
-- Comments, docstrings and Markdown prose use the words of CONTRIBUTING.md, section "Plain English". Code in backquotes
-  is not checked.
+- Comments, docstrings, Markdown prose and names of tests use the words of CONTRIBUTING.md, section "Plain English".
+  Code in backquotes is not checked.
 
 Prints `FILE:LINE: what is wrong: what to write`. Status: 0 nothing found, 1 something found.
 """
@@ -48,6 +48,9 @@ INSTEAD = list(PHRASES.values())
 
 # A sentence whose subject is only a question word. Questions themselves are fine.
 HEADLESS = re.compile(r"(?:^|(?<=[.!?:] ))\(?(?P<word>Who|What)\b(?:[^.!?]|[.!?](?=\S))*(?P<end>[.!?]?)")
+
+TEST_NAME = re.compile(r"\s*(?:def test_|(?:TEST|TEST_[FP]|RC_GTEST_(?:FIXTURE_)?PROP)\(\w+, )(\w+)")
+WORD_BOUNDARY = re.compile(r"_|(?<=[a-z0-9])(?=[A-Z])")
 
 PYTHON_SHEBANG = re.compile(rb"#!.*\bpython3?\b")
 SHELL_SHEBANG = re.compile(rb"#!.*\b(ba)?sh\b")
@@ -186,6 +189,12 @@ def bad_phrases(paragraph: Paragraph) -> Iterator[tuple[int, str, str]]:
                    "name the actor, then the verb, then the object")
 
 
+def bad_names(lines: list[str]) -> Iterator[tuple[int, str, str]]:
+    for number, line in enumerate(lines, 1):
+        if found := TEST_NAME.match(line):
+            yield from bad_phrases(Paragraph([(number, WORD_BOUNDARY.sub(" ", found[1]))], prose=False))
+
+
 def check(path: pathlib.Path, name: str) -> list[str]:
     """Returns the complaints about a file, as lines to print."""
     kind = kind_of(path)
@@ -197,7 +206,7 @@ def check(path: pathlib.Path, name: str) -> list[str]:
                   "shell": lambda: comment_paragraphs(lines, HASH_COMMENT),
                   "cmake": lambda: comment_paragraphs(lines, HASH_COMMENT),
                   "cpp": lambda: comment_paragraphs(lines, SLASH_COMMENT)}
-    found = list(too_long(kind, text))
+    found = [*too_long(kind, text), *bad_names(lines)]
     for paragraph in paragraphs[kind]():
         found += bad_phrases(paragraph)
     return [f"{name}:{line}: {wrong}: {instead}" for line, wrong, instead in sorted(found)]

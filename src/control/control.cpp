@@ -227,12 +227,12 @@ private:
         const std::string_view what = there == 0 ? "removed" : "replaced";
         ::mkdir(socket_.parent_path().c_str(), 0755);
         control_.close();
-        const auto anew = open_socket(socket_);
-        if (anew) control_.accept();
-        if (anew) notify(fmt::format("control socket {} was {}; it is created again", socket_.string(), what));
+        const auto created = open_socket(socket_);
+        if (created) control_.accept();
+        if (created) notify(fmt::format("control socket {} was {}; it is created again", socket_.string(), what));
         else if (!reported_)
-            notify(fmt::format("control socket {} was {}: {}", socket_.string(), what, anew.error().text));
-        reported_ = !anew;
+            notify(fmt::format("control socket {} was {}: {}", socket_.string(), what, created.error().text));
+        reported_ = !created;
     }
     void notify(std::string text) const {
         if (on_notice_) served_.post([on_notice = on_notice_, line = std::move(text)] { on_notice(line); });

@@ -159,7 +159,7 @@ SetupResult<void> RotatingWriter::flush() {
 SetupResult<void> RotatingWriter::close() {
     closed_ = true;
     if (is_removed() && writer_->buffered_bytes() != 0)
-        if (auto anew = begin_again(); !anew && no_file_) return anew;
+        if (auto begun = begin_again(); !begun && no_file_) return begun;
     return writer_ ? writer_->close() : SetupResult<void>{};
 }
 

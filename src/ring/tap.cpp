@@ -114,31 +114,31 @@ void RingTap::note_page_aside(std::vector<std::string>& notices) const {
 }
 
 void RingTap::take_new_ring(std::vector<std::string>& notices) {
-    auto anew = making_.get();
+    auto created = making_.get();
     shm::RingWriter old = std::move(writer_);
-    if (anew) {
-        writer_ = std::move(*anew);
+    if (created) {
+        writer_ = std::move(*created);
         notices.push_back(fmt::format("ring {} was removed; it is created again", name_));
         note_aside(notices);
     } else if (!reported_ring_) {
         notices.push_back(
             fmt::format("ring {} was removed: {}; trying again every second, and counting its frames as dropped", name_,
-                        anew.error().text));
+                        created.error().text));
     }
-    reported_ring_ = !anew;
+    reported_ring_ = !created;
     run_in_background([old = std::move(old)] {});  // releasing the memory takes time too
 }
 
 void RingTap::recreate_page(const link::Links& links, std::vector<std::string>& notices) {
-    auto anew = RingPage::create(name_, options_.mode);
-    if (!anew) {
+    auto created = RingPage::create(name_, options_.mode);
+    if (!created) {
         if (!std::exchange(reported_page_, true))
-            notices.push_back(fmt::format("no counter page for ring {}: {}", name_, anew.error().text));
+            notices.push_back(fmt::format("no counter page for ring {}: {}", name_, created.error().text));
         page_.reset();
         return;
     }
     reported_page_ = false;
-    page_.emplace(std::move(*anew));
+    page_.emplace(std::move(*created));
     note_page_aside(notices);
     for (const auto& link : links.links()) page_->name_link(link.id, link.name);
     page_due_ = MonoTime{};

@@ -192,9 +192,9 @@ bool RingWriter::is_removed() const noexcept {
 
 SetupResult<void> RingWriter::reopen() {
     end();
-    auto anew = open(name_, options_);
-    if (!anew) return tl::unexpected(std::move(anew.error()));
-    *this = std::move(*anew);
+    auto created = open(name_, options_);
+    if (!created) return tl::unexpected(std::move(created.error()));
+    *this = std::move(*created);
     return {};
 }
 

@@ -11,6 +11,7 @@ from places import PACKAGE, ROOT
 
 sys.path[:0] = [str(PACKAGE), str(ROOT / "tests" / "support"), str(ROOT / "tests" / "system")]
 
+import harness  # noqa: E402, F401  (sets MAVLOOM_RUN)
 import pymavlink_vectors as vectors  # noqa: E402
 
 # A shell that starts the tests in the background has them ignore Ctrl-C, and what they start would inherit that.

@@ -27,8 +27,8 @@ SANITIZER_REPORT = re.compile(r"(ERROR|WARNING): \w+Sanitizer|runtime error: ")
 
 
 def _run_folder() -> pathlib.Path:
-    """Of this run of the tests, its worker processes among it: no router of the machine's is in the way, and none is
-    touched. Short, because the name of a socket is."""
+    """Returns a run folder for this run of the tests and its workers, so that no test meets a router of the machine.
+    The path is short, because the path of a socket must be."""
     if "MAVLOOM_RUN" not in os.environ:
         os.environ["MAVLOOM_RUN"] = tempfile.mkdtemp(prefix="mv-")
         atexit.register(shutil.rmtree, os.environ["MAVLOOM_RUN"], ignore_errors=True)
@@ -78,8 +78,8 @@ def udp_socket(host: str = "127.0.0.1", timeout: float = DEFAULT_TIMEOUT_S) -> s
     return sock
 
 
-# Below those that the kernel gives to sockets that ask for any (32768 and up): only who asks for one of these by its
-# number can take it. Each worker of pytest-xdist has its own share.
+# These ports are below those that the kernel chooses (32768 and up), so only a program that asks for one by its number
+# can take it. Each worker of pytest-xdist has its own share.
 _worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0")[2:])
 _ports = itertools.cycle(random.sample(range(20_000 + _worker % 8, 32_000, 8), 1500))
 

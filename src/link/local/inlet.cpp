@@ -147,11 +147,11 @@ Inlet::~Inlet() {
 // Another program may have removed the socket or its folder.
 void Inlet::look_at_place() {
     if (place_ == Place::of(path_)) return;
-    const auto anew = bind();
-    if (anew) core_.events.notice(info.id, fmt::format("inlet {} was removed; it is created again", path_.string()));
+    const auto bound = bind();
+    if (bound) core_.events.notice(info.id, fmt::format("inlet {} was removed; it is created again", path_.string()));
     else if (!reported_)
-        core_.events.notice(info.id, fmt::format("inlet {} was removed: {}", path_.string(), anew.error().text));
-    reported_ = !anew;
+        core_.events.notice(info.id, fmt::format("inlet {} was removed: {}", path_.string(), bound.error().text));
+    reported_ = !bound;
 }
 
 void Inlet::on_io(net::IoEvents) {

@@ -15,6 +15,12 @@ namespace {
 constexpr std::chrono::seconds connect_limit{5};
 constexpr std::chrono::seconds required_limit{5};
 
+SetupError no_answer(const net::Address& silent) {
+    return {SetupCode::unreachable, 0, fmt::format("{} does not answer", silent.text())};
+}
+
+SetupError no_address() { return {SetupCode::not_found, 0, "the host has no address of the same family as bind="}; }
+
 class TcpOut final : public OpenEndpoint,
                      public NameUser,
                      public TcpOwner,
@@ -73,8 +79,7 @@ void TcpOut::on_resolved(net::Resolver::Answer&& answer) {
     if (!answer) return fail(answer.error());
     addresses_.assign(answer->rbegin(), answer->rend());
     if (local_) std::erase_if(addresses_, [&](const net::Address& a) { return a.family() != local_->family(); });
-    if (addresses_.empty())
-        return fail({SetupCode::not_found, 0, "the host has no address of the same family as bind="});
+    if (addresses_.empty()) return fail(no_address());
     const net::Address next = addresses_.back();
     addresses_.pop_back();
     if (auto done = connect_to(next); !done) fail(done.error());
@@ -134,7 +139,7 @@ void TcpOut::on_timer(MonoTime now) {
         core_.loop().unwatch(connecting_watch_);
         const net::Address silent = connecting_.remote();
         connecting_ = {};
-        return fail({SetupCode::unreachable, 0, fmt::format("{} does not answer", silent.text())});
+        return fail(no_answer(silent));
     }
     look_up(info.endpoint.address);
 }
@@ -147,7 +152,7 @@ void TcpOut::on_up_timer(MonoTime now) {
 
 SetupResult<void> TcpOut::connect_and_wait(const net::Resolver::Answer& answer) {
     if (!answer) return tl::unexpected(answer.error());
-    SetupError last{SetupCode::not_found, 0, "the host has no address of the same family as bind="};
+    SetupError last = no_address();
     for (const net::Address& address : *answer) {
         if (local_ && address.family() != local_->family()) continue;
         auto done = connect_to(address);
@@ -155,7 +160,7 @@ SetupResult<void> TcpOut::connect_and_wait(const net::Resolver::Answer& answer) 
             core_.loop().unwatch(connecting_watch_);
             retry_.cancel();
             connecting_ = {};
-            done = setup_error(SetupCode::unreachable, fmt::format("{} does not answer", address.text()));
+            done = tl::unexpected(no_answer(address));
         } else if (done) {
             done = finish();
         }

@@ -7,6 +7,7 @@
 
 #include "link/resolve_and_open.hpp"
 #include "link/retry.hpp"
+#include "link/udp/peers.hpp"
 #include "link/udp/udp.hpp"
 
 namespace mavloom::link::detail {
@@ -20,7 +21,7 @@ public:
           NameUser(opening.core.look_ups),
           core_(opening.core),
           local_(local),
-          idle_(opening.endpoint.options.idle.value_or(std::chrono::seconds(60))),
+          idle_(opening.endpoint.options.idle.value_or(UdpPeers::default_idle)),
           is_name_(!net::Address::parse(opening.endpoint.address.host, 0)),
           retry_(opening.core, *this, *this) {}
     ~UdpOut() override {

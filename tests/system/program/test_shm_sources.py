@@ -302,7 +302,7 @@ def test_what_was_overwritten_before_the_waiting_reader_saw_the_ring_counts_as_m
 
 
 @short
-def test_a_relay_whose_hold_was_taken_away_counts_what_it_missed(run, spawn, feed, ring, sink):
+def test_a_relay_whose_hold_was_removed_counts_what_it_missed(run, spawn, feed, ring, sink):
     writer = feed(ring, policy="evict")
     relay = spawn("relay", f"shm://{ring}", "--to", f"udpout://127.0.0.1:{sink.getsockname()[1]}", "--json")
     wait_readers(run, ring)

@@ -803,7 +803,7 @@ def test_an_endpoint_of_the_command_line_stays_although_its_key_went(reloadable,
     other.chmod(0o600)
     sut = reloadable(arguments=[f"udpin://127.0.0.1:{routers.udp_port()}?name=signed&verify={key}&sign={other}"])
     key.unlink()
-    other.write_text("33" * 32)  # this alone would be a reason to open it anew
+    other.write_text("33" * 32)  # this alone would be a reason to open it again
     sut.reload()
 
     assert "signed" in [e["endpoint"] for e in sut.router.stats("endpoint")]
@@ -1121,7 +1121,7 @@ def test_signatures_at_the_border(net, run, tmp_path):
     for frame in sent:
         sut[1].send(frame)
 
-    # Signed anew on B and D, untouched on C.
+    # Signed again on B and D, untouched on C.
     assert sut[3].count(3) == sent
     for end, key in ((2, outer), (4, inner)):
         got, mav = sut[end].count(3), verifier(key)

@@ -83,6 +83,14 @@ def test_code_and_headings_are_not_prose(tmp_path, name, text):
     assert complaints(tmp_path, name, text) == []
 
 
+@pytest.mark.parametrize("name, text", [
+    ("x.py", "def test_a_router_tells_its_name():\n"), ("x.py", "    def test_that_goes_on(self):\n"),
+    ("x.cpp", "TEST(Ring, AReaderIsToldHowMany) {\n"), ("x.cpp", "RC_GTEST_PROP(Ring, GoesOn, (int n)) {\n"),
+])
+def test_names_of_tests_use_the_same_words(tmp_path, name, text):
+    assert [found.split(":")[0] for found in complaints(tmp_path, name, text)] == ["1"]
+
+
 @pytest.mark.parametrize("text, line", [
     ('"""It tells."""\n', 1), ('"""Good.\n\nIt tells.\n"""\n', 3), ('def f():\n    """Good. It\n    tells."""\n', 3),
     ("x = 1  # it tells\n", 1),

@@ -147,7 +147,7 @@ TEST_F(RingSourceTest, LinksThatComeAndGoForEverHaveTheirNames) {
     }
 }
 
-// A router whose page somebody removed makes it anew within a second or so.
+// A router whose page somebody removed creates it again within a second or so.
 TEST_F(RingSourceTest, APageOfAnotherUserNamesNoLinks) {
     if (::geteuid() != 0) GTEST_SKIP() << "giving files away needs root";
     ASSERT_TRUE(sut.open());

@@ -255,7 +255,7 @@ TEST(Ring, AVisitorGetsWhatABatchHolds) {
         << "a lossy reader has one record at a time";
 }
 
-TEST(Ring, AVisitorGetsNothingBehindAHoldThatWasTakenAway) {
+TEST(Ring, AVisitorGetsNothingBehindAHoldThatWasRemoved) {
     const RingName name;
     auto writer = open_writer(name, WhenFull::evict);
     auto reader = open_reader(name, lossless);
@@ -304,7 +304,7 @@ TEST(Ring, AReaderThatDetachesHoldsNobodyAndKeepsTheRingMapped) {
     EXPECT_EQ(record->data.back(), '.');  // newer bytes, and no crash
 }
 
-TEST(Ring, AWaitThatEndsWroteNothingAndTheCallerCountsWhatHeGivesUp) {
+TEST(Ring, AWaitThatEndsWroteNothingAndTheCallerCountsTheRecord) {
     const RingName name;
     auto writer = open_writer(name, WhenFull::wait);
     auto reader = open_reader(name, lossless);
@@ -471,7 +471,7 @@ TEST(Ring, RemovalInUseIsReportedToBothSides) {
     EXPECT_EQ(gone.error().code, SetupCode::not_found);
 }
 
-TEST(Ring, ANameThatIsTakenAwayByHandIsNoticedByWhoAsks) {
+TEST(Ring, ANameThatIsRemovedByHandIsNoticedByBothSides) {
     const RingName name;
     auto writer = open_writer(name);
     auto reader = open_reader(name);
@@ -651,7 +651,7 @@ TEST(Ring, ClosingSparesTheCounterPageOfAnotherUser) {
     EXPECT_EQ(::unlink(page.c_str()), 0);
 }
 
-TEST(Ring, ClosingSparesTheCounterPageOfWhoHasTheNameNow) {
+TEST(Ring, ClosingSparesTheCounterPageOfTheNextOwnerOfTheName) {
     const RingName name;
     auto writer = open_writer(name);
     ::unlink(name.path().c_str());
@@ -840,7 +840,7 @@ TEST(RingProcess, AForkedChildHoldsNothingAndGetsAnError) {
 }
 
 // A grandchild outlives the child that opened the ring: its lock must not.
-TEST(RingProcess, ALockEndsWithItsOwnerThoughAChildOfHisLives) {
+TEST(RingProcess, ALockEndsWithItsOwnerThoughAChildOfThatLives) {
     const RingName name;
     int pipe_ends[2], runs[2];
     ASSERT_EQ(::pipe(pipe_ends), 0);

@@ -152,7 +152,7 @@ TEST_F(RingWaiting, ABatchEndsTheWishToBeWoken) {
     ASSERT_TRUE(reader->try_read_batch(records));
     EXPECT_FALSE(asleep());
     (void)reader->arm();
-    EXPECT_FALSE(asleep()) << "the wait begins anew";
+    EXPECT_FALSE(asleep()) << "the wait starts over";
     EXPECT_EQ(reader->try_read_batch({}).error(), ReadError::empty);
 }
 

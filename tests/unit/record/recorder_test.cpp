@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// A recorder over real files. Full disks: tests/system/route/test_route_faults.py.
+#include "mavloom/record/recorder.hpp"
+
+#include <gmock/gmock.h>
+
+#include <mutex>
+#include <thread>
+
+#include "support/bytes.hpp"
+#include "support/golden_frames.hpp"
+#include "support/temp_dir.hpp"
+
+namespace mavloom::record {
+namespace {
+
+using namespace std::chrono_literals;
+using test::content_of;
+using test::TempDir;
+using testing::HasSubstr;
+
+constexpr std::size_t bytes_of_record = 29;  // of a heartbeat
+
+class Recording {
+public:
+    explicit Recording(const std::filesystem::path& path, std::size_t buffer_bytes = Recorder::default_buffer_bytes) {
+        const auto notice = [this](std::string_view text) {
+            const std::lock_guard lock(mutex_);
+            notices_ += text;
+            notices_ += '\n';
+        };
+        auto recorder = Recorder::create("tape", path, {}, notice, buffer_bytes);
+        if (!recorder) throw std::runtime_error(recorder.error().text);
+        sut = std::move(*recorder);
+    }
+    void record(int count) {
+        for (int i = 0; i < count; ++i)
+            sut->record(WallTime{}, LinkId{1}, wire::FrameView::unchecked(test::heartbeat_v2));
+        sut->publish();
+    }
+    [[nodiscard]] std::string notices() const {
+        const std::lock_guard lock(mutex_);
+        return notices_;
+    }
+    // Returns whether the condition became true within a minute.
+    template <class Condition>
+    bool until(Condition&& condition) {
+        for (const auto deadline = mono_now() + 60s; !condition(); std::this_thread::sleep_for(1ms)) {
+            if (mono_now() > deadline) return false;
+            sut->look_after();
+        }
+        return true;
+    }
+
+private:
+    mutable std::mutex mutex_;
+    std::string notices_;
+
+public:
+    std::unique_ptr<Recorder> sut;
+};
+
+TEST(Recorder, WritesAndCountsWhatItGets) {
+    const TempDir dir;
+    Recording tape(dir / "x.tlog");
+    tape.record(3);
+    tape.sut->stop();
+
+    EXPECT_EQ(content_of(dir / "x.tlog").size(), 3 * bytes_of_record);
+    EXPECT_EQ(tape.sut->counters().frames.value(), 3u);
+    EXPECT_EQ(tape.sut->counters().bytes.value(), 3 * test::heartbeat_v2.size());
+    EXPECT_TRUE(tape.sut->finished());
+}
+
+// The writer itself buffers 256 KiB. The rest waits in the queue.
+TEST(Recorder, FramesWaitInTheQueueWhileThereIsNoFolder) {
+    const TempDir dir;
+    std::filesystem::create_directory(dir / "sub");
+    Recording tape(dir / "sub/x.tlog");
+    std::filesystem::remove_all(dir / "sub");
+    ASSERT_TRUE(tape.until([&] { return tape.notices().find("counted as queue_full") != std::string::npos; }));
+    constexpr int frames = 40'000;
+    static_assert(frames * bytes_of_record > 4 * TlogWriter::default_buffer_bytes);
+    tape.record(frames);
+    std::filesystem::create_directory(dir / "sub");
+
+    ASSERT_TRUE(tape.until([&] { return tape.sut->counters().frames.value() == frames; }));
+    tape.sut->stop();
+    EXPECT_EQ(content_of(dir / "sub/x.tlog").size(), frames * bytes_of_record);
+    EXPECT_EQ(tape.sut->counters().queue_full.value(), 0u);
+    EXPECT_EQ(tape.sut->counters().write_error.value(), 0u);
+    EXPECT_THAT(tape.notices(), HasSubstr("records are written again"));
+}
+
+TEST(Recorder, FramesThatNeverReachAFileAreCounted) {
+    const TempDir dir;
+    std::filesystem::create_directory(dir / "sub");
+    Recording tape(dir / "sub/x.tlog", 64 * 1024);
+    std::filesystem::remove_all(dir / "sub");
+    ASSERT_TRUE(tape.until([&] { return tape.notices().find("counted as queue_full") != std::string::npos; }));
+    constexpr std::uint64_t frames = 40'000;
+    tape.record(frames);
+    tape.sut->stop();
+
+    const auto& counters = tape.sut->counters();
+    EXPECT_EQ(counters.frames.value(), 0u);
+    EXPECT_GT(counters.queue_full.value(), 0u);
+    EXPECT_EQ(counters.queue_full.value() + counters.write_error.value(), frames);
+    EXPECT_THAT(tape.notices(), HasSubstr("frames not written"));
+}
+
+}  // namespace
+}  // namespace mavloom::record
