@@ -49,7 +49,7 @@ INSTEAD = list(PHRASES.values())
 # A sentence whose subject is only a question word. Questions themselves are fine.
 HEADLESS = re.compile(r"(?:^|(?<=[.!?:] ))\(?(?P<word>Who|What)\b(?:[^.!?]|[.!?](?=\S))*(?P<end>[.!?]?)")
 
-TEST_NAME = re.compile(r"\s*(?:def test_|(?:TEST|TEST_[FP]|RC_GTEST_(?:FIXTURE_)?PROP)\(\w+, )(\w+)")
+TEST_NAME = re.compile(r"\s*(?:(?:async )?def test_|(?:TEST|TEST_[FP]|RC_GTEST_(?:FIXTURE_)?PROP)\(\w+, )(\w+)")
 WORD_BOUNDARY = re.compile(r"_|(?<=[a-z0-9])(?=[A-Z])")
 
 PYTHON_SHEBANG = re.compile(rb"#!.*\bpython3?\b")

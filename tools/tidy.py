@@ -97,7 +97,7 @@ def public_headers(build: pathlib.Path) -> dict[str, pathlib.Path]:
     for top in ROOT / "include", build / "generated/include":
         found = sorted(top.glob("mavloom/**/*.hpp")) or sys.exit(f"{top}: there are no headers to check")
         headers |= {str(path.relative_to(top)): path for number, path in enumerate(found)
-                    if "msg" not in path.parts or number % 40 == 0}
+                    if "msg" not in path.relative_to(top).parts or number % 40 == 0}
     return headers
 
 

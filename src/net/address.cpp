@@ -10,10 +10,10 @@
 namespace mavloom::net {
 
 std::uint32_t index_of_zone(const std::string& zone) {
+    if (const std::uint32_t index = if_nametoindex(zone.c_str()); index != 0) return index;
     std::uint32_t number = 0;
     const auto [end, error] = std::from_chars(zone.data(), zone.data() + zone.size(), number);
-    if (error == std::errc{} && end == zone.data() + zone.size()) return number;
-    return if_nametoindex(zone.c_str());
+    return error == std::errc{} && end == zone.data() + zone.size() ? number : 0;
 }
 
 std::optional<Address> Address::parse(std::string_view host, std::uint16_t port) {

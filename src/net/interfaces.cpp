@@ -6,6 +6,7 @@
 #include <net/if.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 
 namespace mavloom::net {
@@ -21,7 +22,9 @@ static std::string all_names() {
 }
 
 SetupResult<std::uint32_t> interface_index(const std::string& name) {
-    if (const std::uint32_t index = index_of_zone(name); index != 0) return index;
+    std::array<char, IF_NAMESIZE> known{};
+    const std::uint32_t index = index_of_zone(name);
+    if (index != 0 && if_indextoname(index, known.data()) != nullptr) return index;
     return setup_error(SetupCode::not_found, fmt::format("there is no interface '{}'; there are {}", name, all_names()));
 }
 

@@ -62,23 +62,27 @@ SetupResult<void> Recorder::look_at_file() {
 }
 
 SetupResult<void> Recorder::write(const FrameQueue::Entry& entry) {
-    wait_for_room(entry);
-    auto taken = writer_.write(entry.time, entry.frame);
+    auto taken = wait_for_room(entry);
+    if (taken) taken = writer_.write(entry.time, entry.frame);
+    else writer_.give_up();
     count();
     return taken;
 }
 
-// While the disk is full, or there is no new file yet in place of a removed one, frames wait in the queue.
-void Recorder::wait_for_room(const FrameQueue::Entry& entry) {
+// While the disk is full, or there is no file because its folder is missing, frames wait in the queue. At the end, the
+// first failure counts for all that are left.
+SetupResult<void> Recorder::wait_for_room(const FrameQueue::Entry& entry) {
     constexpr std::chrono::milliseconds look_for_room{100};
-    while (!ending_.load(std::memory_order_relaxed)) {
-        const auto room = writer_.make_room(entry.time, entry.frame);
-        if (room || !writer_.can_retry(room.error())) return;
+    while (!gave_up_) {
+        auto room = writer_.make_room(entry.time, entry.frame);
+        if (room || !writer_.can_retry(room.error())) return room;
         count();
         report(room);
-        std::this_thread::sleep_for(look_for_room);
+        if (ending_.load(std::memory_order_relaxed)) gave_up_ = std::move(room.error());
+        else std::this_thread::sleep_for(look_for_room);
         if (const auto looked = look_at_file(); !looked) report(looked);
     }
+    return tl::unexpected(*gave_up_);
 }
 
 void Recorder::count() noexcept {
@@ -91,9 +95,9 @@ void Recorder::report(const SetupResult<void>& result) {
     if (failing_ == !result.has_value()) return;
     failing_ = !failing_;
     if (!failing_) return notice_(fmt::format("{}: records are written again", label_));
-    const auto counter = writer_.can_retry(result.error()) ? "queue_full" : "write_error";
+    const bool waits = !ending_.load(std::memory_order_relaxed) && writer_.can_retry(result.error());
     notice_(fmt::format("{}: {}; frames that do not fit into memory meanwhile are counted as {}", label_,
-                        result.error().text, counter));
+                        result.error().text, waits ? "queue_full" : "write_error"));
 }
 
 }  // namespace mavloom::record

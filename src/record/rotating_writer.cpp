@@ -118,16 +118,10 @@ SetupResult<void> RotatingWriter::begin_again() {
     return begin_segment(std::move(*next), begin);
 }
 
-// The new segment is opened before the old one is closed, so if it cannot be opened, nothing has changed.
 SetupResult<void> RotatingWriter::write(WallTime time, const wire::FrameView& frame) {
-    SetupResult<void> closed;
     auto taken = make_room(time, frame);
-    if (taken && !no_file_ && begins_segment(time, frame)) {
-        if (auto next = TlogWriter::create_file(free_name(time)); next) closed = begin_segment(std::move(*next), time);
-        else taken = tl::unexpected(std::move(next.error()));
-    }
     if (taken) taken = writer_->write(time, frame);
-    if (taken) return closed;
+    if (taken) return std::exchange(closed_segment_, {});
     ++refused_;
     return taken;
 }
@@ -137,18 +131,23 @@ SetupResult<void> RotatingWriter::begin_segment(TlogWriter next, WallTime time) 
     return continue_in(std::move(next));
 }
 
+// The new segment is opened before the old one is closed, so if it cannot be opened, nothing has changed.
 SetupResult<void> RotatingWriter::make_room(WallTime time, const wire::FrameView& frame) {
-    if (!writer_) return {};
     if (no_file_) return writer_->has_room(frame) ? SetupResult<void>{} : tl::unexpected(*no_file_);
     if (!begins_segment(time, frame)) return writer_->make_room(frame);
     auto flushed = flush();
-    if (!flushed && can_retry(flushed.error())) return flushed;
-    return {};  // after any other error, a new segment may help
+    if (!flushed && can_retry(flushed.error())) return flushed;  // after any other error, a new segment may help
+    auto next = TlogWriter::create_file(free_name(time));
+    if (!next) return tl::unexpected(std::move(next.error()));
+    closed_segment_ = begin_segment(std::move(*next), time);
+    return {};
 }
 
 bool RotatingWriter::can_retry(const SetupError& error) const noexcept {
+    if (closed_) return false;
+    if (!writer_) return rotation_.rotates();
     const bool is_full_disk = error.sys_errno == ENOSPC || error.sys_errno == EDQUOT;
-    return (is_full_disk && writer_ && writer_->is_file()) || is_removed();
+    return no_file_ || (is_full_disk && writer_->is_file());
 }
 
 SetupResult<void> RotatingWriter::flush() {

@@ -50,9 +50,10 @@ static std::uint64_t address_of(std::string_view name) {
 // The router sends its own messages neither to taps nor to the inlet: programs at the inlet read the ring, which does
 // not contain these messages.
 bool Forwarder::add_link(LinkId link, const RoutedEndpoint& endpoint) {
-    const auto before = down_.extract(link);
-    const auto counts = before ? before.mapped() : route::LinkCounters{};
+    const auto before = down_.find(link);
+    const auto counts = before == down_.end() ? route::LinkCounters{} : before->second;
     if (!engine_.add_link(link, endpoint.policy, address_of(links_.link_name(link)), counts)) return false;
+    down_.erase(link);
     if (!endpoint.policy.tap && !endpoint.is_inlet)
         own_messages_.add(link, wants_heartbeat(endpoint.endpoint), links_.now());
     return true;

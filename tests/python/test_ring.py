@@ -1809,7 +1809,7 @@ def test_row_17_a_read_waits_for_the_views_of_another_thread(held):
     thread.join(DEADLINE_S)
 
 
-def test_row_17_another_looking_reader_is_not_waited_for(held):
+def test_row_17_a_read_does_not_wait_for_a_view_of_its_own_thread(held):
     """It would never end."""
     record = in_thread(held.read)
     view = in_thread(lambda: record.data)
@@ -2049,7 +2049,7 @@ def test_hear_leaves_alone_what_it_was_started_to_ignore(hear, ring, frames):
     assert ended(process) == (143, "", f"{ring}: 6 frames heard, 6 written\n") and not path_of(ring).exists()
 
 
-def test_hear_removes_the_ring_at_its_end_unless_requested(hear, ring):
+def test_hear_removes_the_ring_at_its_end_unless_keep_is_set(hear, ring):
     for words, made_before, stays in (([], True, False), (["--remove"], True, False), (["--keep"], False, True),
                                       (["--keep"], True, True), (["--remove"], False, False),
                                       ([], False, False)):

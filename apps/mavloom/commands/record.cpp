@@ -26,8 +26,8 @@ struct RecordOptions {
 };
 
 // Writes the frames of the receiver to the recording. While the disk is full, or the folder of the file is missing, it
-// waits, as a router's recording does.
-// Meanwhile frames wait in the receiver's buffer. Frames that do not fit there are counted.
+// waits, as a router's recording does. Meanwhile frames wait in the receiver's buffer. Frames that do not fit there are
+// counted.
 class Recording {
 public:
     Recording(const Common& common, const RecordOptions& options, feed::Receiver& receiver,
@@ -58,27 +58,31 @@ private:
     }
 
     SetupResult<void> write(const record::FrameQueue::Entry& entry) {
-        auto room = writer_.make_room(entry.time, entry.frame);
-        if (!room) room = flush();
+        auto room = retried([&] { return writer_.make_room(entry.time, entry.frame); });
         if (room) return writer_.write(entry.time, entry.frame);
         writer_.give_up();
         return room;
     }
 
-    // Waits and retries while that can help.
     SetupResult<void> flush() {
-        auto flushed = writer_.flush();
-        if (flushed || !writer_.can_retry(flushed.error())) return flushed;
+        return retried([&] { return writer_.flush(); });
+    }
+
+    // Repeats the step every 100 ms while it fails and a retry can succeed.
+    template <class Step>
+    SetupResult<void> retried(Step step) {
+        auto done = step();
+        if (done || !writer_.can_retry(done.error())) return done;
         print_notice(common_,
                      fmt::format("{}; trying again; frames that do not fit into --buffer are dropped and counted",
-                                 flushed.error().text));
-        while (!flushed && writer_.can_retry(flushed.error()) && may_continue()) {
+                                 done.error().text));
+        while (!done && writer_.can_retry(done.error()) && may_continue()) {
             ::poll(nullptr, 0, static_cast<int>(retry_interval.count()));  // a signal ends the wait
             if (auto looked = look_at_file(); !looked) return looked;
-            flushed = writer_.flush();
+            done = step();
         }
-        if (flushed) print_notice(common_, fmt::format("{}: records are written again", writer_.path().string()));
-        return flushed;
+        if (done) print_notice(common_, fmt::format("{}: records are written again", writer_.path().string()));
+        return done;
     }
 
     [[nodiscard]] bool may_continue() const { return !Signals::received() && mono_now() < end_; }

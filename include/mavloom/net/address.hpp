@@ -19,7 +19,8 @@
 
 namespace mavloom::net {
 
-// Returns the index of the interface of a zone, such as "eth0" or "2" (without "%"). Returns 0 if there is none.
+// Returns the index of the interface of a zone, such as "eth0" or "2" (without "%"). Returns 0 if no interface has that
+// name and it is no number; does not check that the number exists.
 [[nodiscard]] std::uint32_t index_of_zone(const std::string& zone);
 
 class Address {

@@ -10,6 +10,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -22,8 +23,8 @@ namespace mavloom::record {
 
 struct RecorderCounters {
     Counter frames, bytes;  // in the file, without records that are still buffered; `bytes` excludes the time stamps
-    Counter queue_full;     // frames dropped because the writing thread was too slow
-    Counter write_error;    // frames lost because the disk did not take them
+    Counter queue_full;     // frames that did not fit into the queue, because the disk was slow, full or missing
+    Counter write_error;    // frames lost to other errors of the disk, or still unwritten at the end
 };
 
 class Recorder {
@@ -69,7 +70,7 @@ private:
     Recorder(std::string label, record::RotatingWriter writer, std::unique_ptr<FrameQueue> queue, Notice notice);
     void run();
     [[nodiscard]] SetupResult<void> write(const FrameQueue::Entry& entry);
-    void wait_for_room(const FrameQueue::Entry& entry);
+    [[nodiscard]] SetupResult<void> wait_for_room(const FrameQueue::Entry& entry);
     void count() noexcept;
     void report(const SetupResult<void>& result);
     [[nodiscard]] SetupResult<void> look_at_file();
@@ -81,6 +82,7 @@ private:
     Notice notice_;
     RecorderCounters counters_;
     bool failing_ = false;
+    std::optional<SetupError> gave_up_;  // why the frames that are left at the end cannot be written
     std::atomic<bool> ending_{false}, finished_{false};
     std::thread thread_;
 };

@@ -33,13 +33,12 @@ public:
     // writable, or if rotation is requested for a device or FIFO.
     [[nodiscard]] static SetupResult<RotatingWriter> create(const std::filesystem::path& path, Rotation rotation = {});
 
-    // Returns whether this record would begin a segment.
-    [[nodiscard]] bool begins_segment(WallTime time, const wire::FrameView& frame) const noexcept;
     // Makes room for this record: in the buffer, or, if the record begins a segment, by writing the last records of the
-    // open one. So a retry after an error loses nothing, and no segment grows past its limits on a full disk.
+    // open one and opening the next. So a retry after an error loses nothing, and no segment grows past its limits on a
+    // full disk.
     [[nodiscard]] SetupResult<void> make_room(WallTime time, const wire::FrameView& frame);
-    // Whether a retry after this error can succeed without a new segment: the disk is full, or the file was removed
-    // and there is no new one yet. False for devices and pipes.
+    // Whether a retry after this error can succeed: the disk is full, or there is no file yet, because the folder is
+    // missing for example. False for devices and pipes.
     [[nodiscard]] bool can_retry(const SetupError& error) const noexcept;
     // An error means that records were lost; `lost_records` counts them. There are two cases:
     // - This record was not taken, because `make_room` failed or the next segment could not be opened.
@@ -74,6 +73,7 @@ public:
 private:
     RotatingWriter(std::filesystem::path path, Rotation rotation) : path_(std::move(path)), rotation_(rotation) {}
 
+    [[nodiscard]] bool begins_segment(WallTime time, const wire::FrameView& frame) const noexcept;
     [[nodiscard]] bool is_removed() const noexcept;
     [[nodiscard]] SetupResult<void> begin_again();
     [[nodiscard]] SetupResult<void> end_segment();
@@ -92,7 +92,8 @@ private:
         std::uint64_t taken = 0, written = 0, bytes = 0;
     } before_;  // of the closed segments
     std::uint64_t refused_ = 0;
-    bool closed_ = false;  // records that the last segment still buffers are lost
+    SetupResult<void> closed_segment_;  // how the last segment was closed, until `write` reports it
+    bool closed_ = false;               // records that the last segment still buffers are lost
 };
 
 // Returns the text that reports a removed file to a user.

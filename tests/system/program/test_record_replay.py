@@ -241,22 +241,29 @@ def test_a_file_that_goes_is_reported_and_a_new_one_begins(spawn, udp_socket, tm
     assert process.stop().status == 130
 
 
-def test_record_waits_for_the_folder_of_its_file(spawn, udp_socket, tmp_path, wait_for):
-    log = tmp_path / "folder" / "x.tlog"
-    log.parent.mkdir()
-    process = spawn("record", "udpin://127.0.0.1:0", "-o", log)
+@pytest.mark.parametrize("options", ["", "?rotate_every=1h"])
+def test_record_waits_for_the_folder_of_its_file(spawn, udp_socket, tmp_path, wait_for, options):
+    folder = tmp_path / "folder"
+    folder.mkdir()
+
+    def recorded():
+        return [frame for path in folder.glob("*.tlog") for _, frame in frames.read_tlog(path)]
+    process = spawn("record", "udpin://127.0.0.1:0", "-o", f"tlog://{folder}/x.tlog{options}")
     address = ("127.0.0.1", int(process.wait_output(r"listening on port (\d+)", stream="err")[1]))
     sender = udp_socket()
     sender.sendto(frames.attitude(0), address)
-    wait_for(lambda: frames.read_tlog(log), what="the first frame")
-    shutil.rmtree(log.parent)
-    sender.sendto(frames.attitude(1), address)
-    process.wait_output("No such file or directory; trying again", stream="err")
+    wait_for(recorded, what="the first frame")
+    shutil.rmtree(folder)
+
+    def send_more():
+        sender.sendto(frames.attitude(1), address)
+        return "No such file or directory; trying again" in process.stderr
+    wait_for(send_more, what="the missing folder to be noticed")
     sender.sendto(frames.attitude(2), address)
-    log.parent.mkdir()
+    folder.mkdir()
     process.wait_output("records are written again", stream="err")
-    # The frame before may have gone to the deleted file.
-    wait_for(lambda: [frame for _, frame in frames.read_tlog(log)][-1:] == [frames.attitude(2)], what="the last frame")
+    # The frames before may have gone to the deleted file.
+    wait_for(lambda: recorded()[-1:] == [frames.attitude(2)], what="the last frame")
 
     assert process.stop().status == 130
 

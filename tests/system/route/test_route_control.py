@@ -1149,7 +1149,7 @@ def sut_frame(sut, start, frame, end):
     return sut[end].next()
 
 
-def test_nothing_is_signed_for_unverified_peers(net, run, tmp_path):
+def test_no_frame_of_an_unverified_link_is_signed(net, run, tmp_path):
     key = new_key(run, tmp_path / "link.key")
     sut = net(("udpout", "udpout", "udpout"),
               options={1: f"verify={tmp_path}/link.key", 2: f"sign={tmp_path}/link.key"})

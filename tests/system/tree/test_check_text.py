@@ -84,7 +84,8 @@ def test_code_and_headings_are_not_prose(tmp_path, name, text):
 
 
 @pytest.mark.parametrize("name, text", [
-    ("x.py", "def test_a_router_tells_its_name():\n"), ("x.py", "    def test_that_goes_on(self):\n"),
+    ("x.py", "def test_a_router_tells_its_name():\n    pass\n"),
+    ("x.py", "async def test_that_goes_on(): pass\n"),
     ("x.cpp", "TEST(Ring, AReaderIsToldHowMany) {\n"), ("x.cpp", "RC_GTEST_PROP(Ring, GoesOn, (int n)) {\n"),
 ])
 def test_names_of_tests_use_the_same_words(tmp_path, name, text):

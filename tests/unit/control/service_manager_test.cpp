@@ -50,7 +50,7 @@ private:
     int socket_ = -1;
 };
 
-TEST_F(ServiceManagerTest, ReportsItsNotifications) {
+TEST_F(ServiceManagerTest, SendsItsNotifications) {
     const auto manager = ServiceManager::from_environment();
     manager.ready();
     EXPECT_EQ(received(), "READY=1");

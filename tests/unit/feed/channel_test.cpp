@@ -338,7 +338,7 @@ TEST_F(HeldChannelTest, AReaderThatIsDestroyedHoldsNothing) {
     EXPECT_TRUE(channel->has_room());
 }
 
-TEST_F(HeldChannelTest, AClosedChannelReportsNoRoom) {
+TEST_F(HeldChannelTest, AClosedChannelDoesNotReportRoom) {
     fill();
     channel->close();
     reader->close();

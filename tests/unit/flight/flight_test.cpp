@@ -127,7 +127,7 @@ TEST(Arming, ATerminatedVehicleStaysSo) {
 
 // --- Take-off and landing
 
-TEST(TakeOff, ReportsTheStatesOfPx4) {
+TEST(TakeOff, GoesThroughTheStatesOfPx4) {
     FlightRig rig(ready);
     rig.run(1);
     ASSERT_TRUE(rig.flight.take_off({.altitude = 499.4}).is_accepted());  // disarmed: it waits

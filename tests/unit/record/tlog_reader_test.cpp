@@ -359,14 +359,14 @@ TEST(TlogReader, StopsWhereThereIsNothingButDamage) {
         auto reader = TlogReader::open(dir / "x.tlog", golden_table());
         ASSERT_TRUE(reader->next(1000).has_value());
 
-        int gave_way = 0;
+        int stopped = 0;
         auto found = reader->next(1000);
-        for (; !found && found.error() == TlogReader::Stop::damage; found = reader->next(1000)) ++gave_way;
+        for (; !found && found.error() == TlogReader::Stop::damage; found = reader->next(1000)) ++stopped;
 
         ASSERT_TRUE(found.has_value());
         EXPECT_EQ(found->frame.id().value, 30u);
         EXPECT_EQ(found->lost_bytes, 1'000'000u);
-        EXPECT_GE(gave_way, 1);
+        EXPECT_GE(stopped, 1);
         EXPECT_EQ(reader->counters().damaged_places.value(), 1u);
     }
 }
@@ -379,13 +379,12 @@ TEST(TlogReader, StopsWhereOnlyOtherMessagesAre) {
     test::write_file(dir / "x.tlog", content + record(t0, test::attitude_v2));
     auto reader = TlogReader::open(dir / "x.tlog", golden_table());
 
-    int gave_way = 0;
+    int stopped = 0;
     auto found = reader->next_of(MessageId{30}, 1000);
-    for (; !found && found.error() == TlogReader::Stop::damage; found = reader->next_of(MessageId{30}, 1000))
-        ++gave_way;
+    for (; !found && found.error() == TlogReader::Stop::damage; found = reader->next_of(MessageId{30}, 1000)) ++stopped;
 
     ASSERT_TRUE(found.has_value());
-    EXPECT_GE(gave_way, 1);
+    EXPECT_GE(stopped, 1);
     EXPECT_EQ(found->offset, content.size());
 }
 

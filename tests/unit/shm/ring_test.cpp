@@ -840,7 +840,7 @@ TEST(RingProcess, AForkedChildHoldsNothingAndGetsAnError) {
 }
 
 // A grandchild outlives the child that opened the ring: its lock must not.
-TEST(RingProcess, ALockEndsWithItsOwnerThoughAChildOfThatLives) {
+TEST(RingProcess, ALockEndsWithItsOwnerEvenIfAChildLives) {
     const RingName name;
     int pipe_ends[2], runs[2];
     ASSERT_EQ(::pipe(pipe_ends), 0);
