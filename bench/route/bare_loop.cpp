@@ -84,8 +84,8 @@ private:
     std::array<mmsghdr, batch> in_{}, out_{};
 };
 
-// Rests until 0.2 ms after the last turn began, by the rules of docs/design/turn.md. The loop does not see frames, so
-// it counts datagrams instead: 250 in 10 ms lies between the benchmark's low load and its other loads.
+// Rests until 0.2 ms after the last turn began, by the rules of docs/design/turn.md. Counts datagrams, because the loop
+// does not see frames. The limit of 250 in 10 ms is above the benchmark's lowest load and below its other loads.
 class Rest {
 public:
     using Clock = std::chrono::steady_clock;

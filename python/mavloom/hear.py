@@ -11,8 +11,7 @@ import sys
 import time
 from collections.abc import Callable
 
-from . import _core
-from . import ClosedError, Error, InputError, Link, PermissionDeniedError, RingWriter, UsageError, connect
+from . import ClosedError, Error, InputError, Link, PermissionDeniedError, RingWriter, UsageError, _core, connect
 
 LOOK_AT_SIGNALS_S = 0.1
 LOOK_AT_ANSWERS_S = 1.0

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "control/sessions.hpp"
 
+#include <fmt/format.h>
+
 #include <boost/asio/error.hpp>
 #include <boost/asio/read_until.hpp>
 #include <boost/asio/write.hpp>
@@ -33,7 +35,8 @@ void ControlSession::read() {
     idle_time_.wait_for_client();
     asio::async_read_until(socket_, input_, '\n', [self = shared_from_this()](error_code error, std::size_t) {
         if (!error) self->ask();
-        else if (error == asio::error::not_found) refuse(self->socket_, "a request is one line of at most 64 KiB");
+        else if (error == asio::error::not_found)
+            refuse(self->socket_, fmt::format("a request is one line of at most {} KiB", longest_request / 1024));
     });
 }
 

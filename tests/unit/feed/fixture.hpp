@@ -15,6 +15,7 @@
 
 #include "mavloom/dialect/dialect.hpp"
 #include "mavloom/feed/channel.hpp"
+#include "support/eventually.hpp"
 #include "unit/link/fixture.hpp"
 
 namespace mavloom::feed::testing {
@@ -26,7 +27,8 @@ using link::testing::PlainSocket;
 using link::testing::view;
 
 inline constexpr std::size_t smallest_buffer = 64 * 1024;
-inline constexpr auto long_enough = 60s;
+using test::eventually;
+using test::long_enough;
 
 // A frame of the default dialect. A short payload is filled with zeros.
 inline Bytes frame_of(std::uint32_t id, Bytes payload = {}, Source source = {SystemId{1}, ComponentId{1}}) {
@@ -101,15 +103,6 @@ inline bool is_readable(int fd, std::chrono::milliseconds within = 0ms) {
 inline std::uint64_t read_count(int fd) {
     std::uint64_t count = 0;
     return ::read(fd, &count, sizeof count) == sizeof count ? count : 0;
-}
-
-template <class Condition>
-[[nodiscard]] bool eventually(Condition&& condition) {
-    for (const auto limit = mono_now() + long_enough; !condition();) {
-        if (mono_now() > limit) return false;
-        std::this_thread::sleep_for(1ms);
-    }
-    return true;
 }
 
 }  // namespace mavloom::feed::testing
