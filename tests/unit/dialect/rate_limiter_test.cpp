@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <random>
 
 #include "mavloom/wire/frame_writer.hpp"
 
@@ -43,6 +45,41 @@ TEST(RateLimiter, KeepsTheRateOfAStreamThatIsALittleFaster) {
     Limiter sut = limiter_of({{"HEARTBEAT", 10}});
 
     EXPECT_NEAR(admitted(sut, Heartbeat(), 83333333ns, 1200), 1000, 1);  // 12 Hz for 100 s, limited to 10 Hz
+}
+
+// Issue 30: 4.60 of 5 Hz and 9.60 of 10 Hz passed a limit of their own rate.
+TEST(RateLimiter, AStreamOfTheLimitsRatePassesWholeDespiteJitter) {
+    for (const double rate : {0.2, 1.0, 5.0, 10.0, 50.0, 250.0}) {
+        Limiter sut = limiter_of({{"HEARTBEAT", rate}});
+        const auto interval = std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(1 / rate));
+        const auto jitter = std::min<Nanoseconds>(interval, 1s).count() / 1000;
+        std::minstd_rand random(1);
+        int passed = 0;
+        for (int i = 0; i < 1000; ++i) {
+            const Nanoseconds late{static_cast<std::int64_t>(random() % 490) * jitter};
+            passed += sut.admit(Heartbeat().frame, t0 + i * interval + late);
+        }
+        EXPECT_EQ(passed, 1000) << rate << " Hz";
+    }
+}
+
+TEST(RateLimiter, AStreamThatARadioDeliversInBundlesPassesWhole) {
+    Limiter sut = limiter_of({{"HEARTBEAT", 50}});
+    int passed = 0;
+    for (int bundle = 0; bundle < 1000; ++bundle) {  // three frames every 60 ms; every second bundle is late
+        const auto arrival = t0 + bundle * 60ms + bundle % 2 * 15ms;
+        for (int i = 0; i < 3; ++i) passed += sut.admit(Heartbeat().frame, arrival);
+    }
+    EXPECT_EQ(passed, 3000);
+}
+
+TEST(RateLimiter, JitterDoesNotRaiseTheRate) {
+    Limiter sut = limiter_of({{"HEARTBEAT", 10}});
+    std::minstd_rand random(1);
+    int passed = 0;
+    for (int ms = 0; ms < 100'000; ms += static_cast<int>(random() % 30))
+        passed += sut.admit(Heartbeat().frame, t0 + ms * 1ms);
+    EXPECT_NEAR(passed, 1000, 2);
 }
 
 TEST(RateLimiter, LeavesSlowerStreamsAlone) {
