@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>  // the conversion of OptionalInteger
 
 #include <cstdint>
 #include <limits>

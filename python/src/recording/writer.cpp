@@ -34,7 +34,8 @@ public:
 
     // A Message has a time; bytes of a frame are written with the present time, unless one is given.
     void write(const nb::object& message, const OptionalInteger& time_ns) {
-        const auto given = time_ns ? std::optional(time_ns->in<std::int64_t>("time_ns", 0, latest_time)) : std::nullopt;
+        std::optional<std::int64_t> given;
+        if (time_ns) given = time_ns->in<std::int64_t>("time_ns", 0, latest_time);
         if (nb::isinstance<Message>(message)) {
             const auto& of = *nb::inst_ptr<Message>(message);
             return put(of.frame(), given.value_or(of.time_ns));
