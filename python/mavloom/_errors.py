@@ -37,11 +37,12 @@ class ClosedError(Error):
 
 
 class CommandError(Error):
-    """A vehicle refused a command. `result` is its MAV_RESULT."""
+    """A vehicle refused a command. `result` is its MAV_RESULT, and `texts` are its texts (STATUSTEXT) about it."""
 
-    def __init__(self, text: str, result: int | None = None) -> None:
+    def __init__(self, text: str, result: int | None = None, texts: tuple[str, ...] = ()) -> None:
         super().__init__(text)
         self.result = result
+        self.texts = texts
 
 
 class ParameterError(Error):

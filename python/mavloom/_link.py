@@ -8,7 +8,7 @@ import time
 from collections.abc import AsyncIterator, Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, TypeVar, overload
 
-from . import _views
+from . import _silence, _views
 from ._core import Dialect, LinkRecorder, LinkStats, Message, Port, RingWriter, Subscription, is_vehicle
 from ._errors import ClosedError, UsageError
 from ._sends import Calls, Sends
@@ -43,7 +43,7 @@ class Link(Sends):
     of its own.
     """
 
-    __slots__ = ("_reader", "_turns", "mav", "__weakref__")
+    __slots__ = ("_reader", "_turns", "_silence", "mav", "__weakref__")
 
     def __init__(self, url: str, *, source_system: int = DEFAULT_SOURCE[0], source_component: int = DEFAULT_SOURCE[1],
                  dialect: Dialect | None = None, buffer: int = DEFAULT_BUFFER_BYTES, version: int = 2) -> None:
@@ -58,6 +58,7 @@ class Link(Sends):
         super().__init__(Port(url, source_system, source_component, dialect, buffer, version))
         self._reader: Subscription = self._port.reader
         self._turns = Turns()
+        self._silence = _silence.Warned()
         self.mav = Sender(self._port)
 
     # ---- receiving
@@ -81,22 +82,23 @@ class Link(Sends):
         return self._reader.recv(timeout)
 
     @overload
-    def recv_match(self, condition: Callable[[M], object] | None = None, *, type: type[M], blocking: bool = False,
+    def recv_match(self, condition: Callable[[M], object] | None = None, *, type: type[M], blocking: bool | None = None,
                    timeout: float | None = None, system: int | None = None,
                    component: int | None = None) -> M | None: ...
 
     @overload
     def recv_match(self, condition: Callable[[Any], object] | None = None, type: MessageTypes | None = None,
-                   blocking: bool = False, timeout: float | None = None, system: int | None = None,
+                   blocking: bool | None = None, timeout: float | None = None, system: int | None = None,
                    component: int | None = None) -> Message | None: ...
 
     def recv_match(self, condition: Callable[[Any], object] | None = None, type: MessageTypes | None = None,
-                   blocking: bool = False, timeout: float | None = None, system: int | None = None,
+                   blocking: bool | None = None, timeout: float | None = None, system: int | None = None,
                    component: int | None = None) -> Message | None:
         """Returns the next message of these types for which `condition(message)` is true, and skips those before it.
 
         `type` takes names or classes of mavloom.messages. An unknown name raises a ValueError that suggests the nearest
-        one. If there is no such message, returns None: at once, or with `blocking` after `timeout` seconds.
+        one. If there is no such message, returns None: after `timeout` seconds, or at once without a time-out. With
+        `blocking=True` and no time-out it waits indefinitely; with `blocking=False` it never waits.
         """
         return self._reader.recv_match(condition, type, blocking, timeout, system, component)
 
@@ -190,8 +192,11 @@ class Link(Sends):
             beats.recv_match(lambda _: self.target_system, blocking=True, timeout=timeout)
         beats.close()
         if not self.target_system:
-            raise TimeoutError(f"{self.name}: no vehicle within {timeout} s")
+            raise self._no_vehicle(timeout)
         return self.target_system, self.target_component
+
+    def _no_vehicle(self, timeout: float) -> TimeoutError:
+        return TimeoutError(f"{self.name}: no vehicle within {timeout:g} s: {_silence.reason(self)}")
 
     # ---- state
 
@@ -253,14 +258,18 @@ class Link(Sends):
 
         Ground stations, gimbals, cameras, ADS-B receivers and onboard controllers are not vehicles. A heartbeat with a
         vehicle's type, such as quadrotor, comes from a vehicle even if it names no autopilot.
+
+        If none arrives, a RuntimeWarning states why, once: after the time-out, or after 5 s of a longer wait.
         """
-        return self.recv_match(is_vehicle_heartbeat, "HEARTBEAT", blocking, timeout)
+        def wait(seconds: float | None) -> Message | None:
+            return self.recv_match(is_vehicle_heartbeat, "HEARTBEAT", blocking, seconds)
+        return self._silence.watch(self, wait, timeout if blocking else 0)
 
     def wait_vehicle(self, timeout: float) -> Message:
         """Like wait_heartbeat, but raises TimeoutError after `timeout` seconds."""
-        heartbeat = self.wait_heartbeat(timeout=timeout)
+        heartbeat = self.recv_match(is_vehicle_heartbeat, "HEARTBEAT", timeout=timeout)
         if heartbeat is None:
-            raise TimeoutError(f"{self.name}: no vehicle within {timeout} s")
+            raise self._no_vehicle(timeout)
         return heartbeat
 
     @property

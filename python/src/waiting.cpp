@@ -22,6 +22,11 @@ std::optional<Nanoseconds> timeout_of(const nb::object& given) {
     return duration_of("timeout", given);
 }
 
+std::optional<Nanoseconds> match_timeout(std::optional<bool> blocking, const nb::object& timeout) {
+    const auto given = timeout_of(timeout);
+    return blocking.value_or(given.has_value()) ? given : Nanoseconds{};
+}
+
 MonoTime deadline_after(std::optional<Nanoseconds> timeout) {
     return timeout ? mono_now() + *timeout : MonoTime::max();
 }

@@ -179,6 +179,8 @@ EndpointStats HubLinks::stats(link::EndpointId endpoint) {
     stats.crc_errors = entry.channel->crc_errors();
     if (entry.served_inlet) stats.answers = frames_in(*entry.served_inlet);
     stats.unheard_answers = entry.unheard_answers;
+    if (const auto* error = links().failure(endpoint); error != nullptr && !is_up(endpoint))
+        stats.failure = error->text;
     return stats;
 }
 

@@ -133,6 +133,20 @@ def test_row_1_a_time_out_gives_none(link):
     assert link.latest("ATTITUDE", max_age=float("inf")) is None
 
 
+@pytest.mark.parametrize("options, waits", [
+    ({"timeout": DEADLINE_S}, True), ({"timeout": DEADLINE_S, "blocking": True}, True), ({"blocking": True}, True),
+    ({"timeout": DEADLINE_S, "blocking": False}, False), ({"timeout": 0}, False), ({"blocking": False}, False),
+    ({}, False)], ids=str)
+@pytest.mark.parametrize("reader", [lambda link: link, lambda link: link.subscribe()], ids=["link", "subscription"])
+def test_a_time_out_makes_recv_match_wait(link, vehicle, reader, options, waits):
+    asked = reader(link)
+    timer = threading.Timer(0.1, lambda: vehicle.send(vehicle.heartbeat()))
+    timer.start()
+    found = asked.recv_match(type="HEARTBEAT", **options)
+    timer.join()
+    assert (found is not None) is waits
+
+
 def test_row_1_the_deadline_holds_while_others_arrive(link, vehicle):
     """pymavlink looks at the clock between messages that match only."""
     with flood(vehicle):

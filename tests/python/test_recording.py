@@ -101,6 +101,20 @@ def test_row_1_the_deadline_holds_for_a_pipe(tmp_path):
     assert log.recv(timeout=60) is None and log.stats.records == 4
 
 
+def test_a_time_out_makes_recv_match_wait_for_a_pipe(tmp_path):
+    path = tmp_path / "pipe"
+    os.mkfifo(path)
+    log, beat = mavloom.read(path), record(mavloom.Dialect().encode("HEARTBEAT"), 1)
+    with open(os.open(path, os.O_RDWR), "wb", buffering=0) as pipe:
+        for options in ({}, {"blocking": False}, {"blocking": False, "timeout": 60}, {"timeout": 0}):
+            assert log.recv_match(type="HEARTBEAT", **options) is None
+        for options in ({"timeout": 60}, {"blocking": True, "timeout": 60}, {"blocking": True}):
+            timer = threading.Timer(0.1, pipe.write, (beat,))
+            timer.start()
+            assert log.recv_match(type="HEARTBEAT", **options).name == "HEARTBEAT"
+            timer.join()
+
+
 def test_row_1_the_deadline_holds_for_a_condition_that_is_slow(flight):
     assert mavloom.read(flight).recv_match(condition=lambda _: time.sleep(0.005), blocking=True, timeout=0.3) is None
 

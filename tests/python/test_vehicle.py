@@ -3,15 +3,17 @@
 import asyncio
 import contextlib
 import math
+import socket
 import threading
 
 import pytest
 
 import mavloom
 from autopilot import ARDUPILOT_PARAMS, ARMED, PX4_PARAMS, Autopilot, Settings
-from mavloom import mavutil
+from mavloom import _silence, mavutil
 from mavloom._vehicle import _commands, _mission, _params
-from vehicles import again_and_again
+from places import free_port
+from vehicles import Vehicle, again_and_again, until
 
 
 @pytest.fixture
@@ -165,6 +167,94 @@ def test_a_refused_command_is_an_error_with_the_reason(peer):
         with pytest.raises(mavloom.CommandError, match="MAV_CMD_COMPONENT_ARM_DISARM: MAV_RESULT_FAILED") as caught:
             vehicle.arm()
         assert caught.value.result == 4
+
+
+def text(peer, text, severity=2, number=0, part=0):
+    return peer.MAVLink_statustext_message(severity, text.encode(), number, part)
+
+
+def test_a_refusal_has_the_texts_that_came_around_it(peer):
+    """ArduPilot and PX4 queue their texts: they come after the answer, too."""
+    def refuse(message):
+        stub.send(text(peer, "PreArm: Compass not calibrated"), text(peer, "Mission: 1 Takeoff", severity=6),
+                  stub.ack(message, 4), text(peer, "Preflight Fail: the first fifty characters of a text", 3, 7, 0),
+                  text(peer, ", and the rest", 3, 7, 1), text(peer, "Arming denied\t", 4),
+                  text(peer, "Arming denied\t", 4))
+    with flown(peer) as (vehicle, stub):
+        stub.send(text(peer, "an earlier text"))
+        vehicle.link.recv_match(type="STATUSTEXT", timeout=30)
+        stub.on_command_long = refuse
+        with pytest.raises(mavloom.CommandError) as caught:
+            vehicle.arm()
+        expected = ("PreArm: Compass not calibrated",
+                    "Preflight Fail: the first fifty characters of a te, and the rest", "Arming denied")
+        assert caught.value.texts == expected
+        assert str(caught.value).endswith(f"MAV_CMD_COMPONENT_ARM_DISARM: MAV_RESULT_FAILED: {'; '.join(expected)}")
+        with pytest.raises(mavloom.CommandError, match="Arming denied"):
+            asyncio.run(vehicle.link.vehicle_async(1).arm())
+
+
+def test_a_refusal_without_a_text(peer):
+    with flown(peer, refuse={400: 4}) as (vehicle, _), pytest.raises(mavloom.CommandError) as caught:
+        vehicle.arm()
+    assert caught.value.texts == () and str(caught.value).endswith("MAV_RESULT_FAILED")
+
+
+# ---- silence
+
+def test_a_refused_connection_is_the_reason_that_there_is_no_vehicle():
+    """A link retries for ever: each call that waits for a vehicle states why there is none."""
+    with mavloom.connect(f"tcpout://127.0.0.1:{free_port(socket.SOCK_STREAM)}") as link:
+        with pytest.warns(RuntimeWarning, match="no vehicle for 0.2 s: cannot connect to .*: Connection ref") as all:
+            assert link.wait_heartbeat(timeout=0.2) is None
+            assert link.wait_heartbeat(timeout=0.2) is None
+        assert len(all) == 1 and all[0].filename == __file__
+        for call in (lambda: link.vehicle(timeout=0.05), lambda: link.wait_vehicle(timeout=0.05),
+                     lambda: link.vehicle(1).command("DO_SET_SERVO", timeout=0.02),
+                     lambda: asyncio.run(link.vehicle_async(1).command("DO_SET_SERVO", timeout=0.02))):
+            with pytest.raises(TimeoutError, match="cannot connect to 127.0.0.1:.*: Connection refused"):
+                call()
+        assert "Connection refused" in link.stats.hints[0]
+
+
+def test_a_wait_without_a_time_out_states_why_it_lasts(peer, monkeypatch):
+    monkeypatch.setattr(_silence, "PATIENCE_S", 0.1)
+    with mavloom.connect("udpin://127.0.0.1:0") as link:
+        vehicle = Vehicle(peer, link.port)
+        timer = threading.Timer(0.5, lambda: vehicle.send(vehicle.heartbeat(autopilot=3)))
+        timer.start()
+        with pytest.warns(RuntimeWarning, match=f"nothing arrived; does the vehicle send to port {link.port} of this"):
+            assert link.wait_heartbeat().autopilot == 3
+        timer.join()
+
+
+def test_what_is_heard_instead_of_a_vehicle(peer):
+    with mavloom.connect("udpin://127.0.0.1:0") as link:
+        for system in range(240, 246):
+            station = Vehicle(peer, link.port, system, 190)
+            station.send(station.heartbeat(6, 8))
+        until(lambda: link.stats.frames_in == 6)
+        with pytest.raises(TimeoutError, match="heard only 240/190, 241/190, .*244/190, 1 more .system/component"):
+            link.wait_vehicle(timeout=0.05)
+    with mavloom.connect("udpin://127.0.0.1:0") as link:
+        Vehicle(peer, link.port).socket.send(b"no MAVLink")
+        until(lambda: link.stats.stray_bytes)
+        with pytest.raises(TimeoutError, match="10 bytes arrived that are not MAVLink: is it the right port"):
+            link.wait_vehicle(timeout=0.05)
+    with mavloom.connect(f"udpout://127.0.0.1:{free_port()}") as link:
+        with pytest.raises(TimeoutError, match="a vehicle answers only if something was sent to it: link.send"):
+            link.vehicle(timeout=0.05)
+        link.send("HEARTBEAT", type=6)
+        until(lambda: link.stats.refused)
+        with pytest.raises(TimeoutError, match="the frames sent were refused: no program listens there"):
+            link.vehicle(timeout=0.05)
+
+
+def test_a_vehicle_that_fell_silent(peer):
+    with flown(peer, beat_s=3) as (vehicle, _):
+        assert vehicle.link.wait_heartbeat(timeout=30)
+        with pytest.raises(TimeoutError, match="its last heartbeat arrived 0 s ago"):
+            vehicle.link.wait_vehicle(timeout=0.1)
 
 
 def test_silence_is_a_timeout(peer, quick):

@@ -80,12 +80,12 @@ def flood(vehicle):
 
 
 @contextlib.contextmanager
-def simulator(autopilot):
-    """A quadrotor that can be armed. Yields the port of a TCP server."""
+def simulator(autopilot, *options):
+    """Quadrotors; the first one can be armed. Yields the port of a TCP server."""
     with tempfile.TemporaryDirectory() as folder:
         process = subprocess.Popen([PROGRAM, "sim", "--autopilot", autopilot, "--speed", str(SPEED), "--listen",
-                                    "tcpin://127.0.0.1:0"], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
-                                   env={**os.environ, "MAVLOOM_RUN": folder})
+                                    "tcpin://127.0.0.1:0", *options], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                   env={**os.environ, "MAVLOOM_RUN": folder}, text=True)
         try:
             port = next(int(found[1]) for line in process.stderr
                         if (found := re.search(r"listening on port (\d+)", line)))

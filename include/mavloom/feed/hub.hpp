@@ -34,6 +34,7 @@ struct EndpointStats {
     std::uint64_t answers = 0, unheard_answers = 0;
     Losses losses;
     std::map<MessageId, Channel::CrcErrors> crc_errors;
+    std::string failure;  // why the endpoint is not connected; empty if it is, or if nothing has failed yet
 };
 
 class Hub {

@@ -15,11 +15,12 @@ from .._core import Message
 from .._enums import entry_name
 from .._errors import CommandError, UsageError
 from ._exchange import Peer, Protocol, wait_until
+from ._texts import Texts
 from ._turns import exclusive
 
 _T = TypeVar("_T")
 
-ANSWERS = ("COMMAND_ACK", "HEARTBEAT")
+ANSWERS = ("COMMAND_ACK", "HEARTBEAT", "STATUSTEXT")
 TAKEOFF_ANSWERS = (*ANSWERS, "GLOBAL_POSITION_INT")
 ANSWER_S = 1.0  # how long one request waits for its answer
 LONGEST_ANSWER_S = 86400
@@ -85,25 +86,37 @@ def command(peer: Peer, number: int, params: tuple[float, ...], timeout: float |
 
 def acknowledged(peer: Peer, number: int, params: tuple[float, ...], timeout: float, tries: int) -> Protocol[Message]:
     fields = {f"param{place}": value for place, value in enumerate(params, 1)}
+    texts = Texts()
     for confirmation in range(tries):
         peer.send("COMMAND_LONG", command=number, confirmation=confirmation, **fields)
-        answer = yield from acknowledgement(peer, number, timeout)
+        answer = yield from acknowledgement(peer, number, timeout, texts)
         if answer is None:
             continue
         if answer["result"] != ACCEPTED:
-            raise CommandError(f"{peer}: {name_of(number)}: {result_name(answer['result'])}", answer["result"])
+            yield from texts.late_ones()
+            raise refusal(peer, number, answer["result"], texts.found())
         return answer
     raise TimeoutError(f"{peer}: no answer to {name_of(number)} after {tries} tries")
 
 
-def acknowledgement(peer: Peer, number: int, timeout: float) -> Generator[float, Message | None, Message | None]:
+def refusal(peer: Peer, number: int, result: int, texts: tuple[str, ...]) -> CommandError:
+    reason = ": ".join((result_name(result), *(["; ".join(texts)] if texts else [])))
+    return CommandError(f"{peer}: {name_of(number)}: {reason}", result, texts)
+
+
+def acknowledgement(peer: Peer, number: int, timeout: float,
+                    texts: Texts) -> Generator[float, Message | None, Message | None]:
     """Returns the final answer to a command, or None if there is no answer. The command may then be repeated.
+
+    The vehicle's texts until then are noted in `texts`.
 
     A command in progress must not be repeated, because the vehicle would begin it again. If the vehicle falls silent
     during such a command, raises TimeoutError.
     """
     deadline, in_progress = time.monotonic() + timeout, False
     while (answer := (yield from wait_until(deadline))) is not None:
+        if answer.name == "STATUSTEXT":
+            texts.note(answer)
         if answer.name != "COMMAND_ACK" or answer["command"] != number or not peer.is_for_us(answer):
             continue
         if answer["result"] != IN_PROGRESS:

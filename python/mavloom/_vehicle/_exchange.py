@@ -6,6 +6,7 @@ import time
 from collections.abc import Generator, Iterable
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from .. import _silence
 from .._core import Message, Subscription
 
 if TYPE_CHECKING:
@@ -51,6 +52,13 @@ def wait_until(deadline: float) -> Generator[float, Message | None, Message | No
     return (yield max(0.0, deadline - time.monotonic()))
 
 
+def explained(peer: Peer, error: TimeoutError) -> TimeoutError:
+    """The error with what the link knows about the silence."""
+    if peer.heartbeat() is not None and not peer.link.stats.hints:
+        return error
+    return TimeoutError(f"{error}: {_silence.reason(peer.link, peer.system)}")
+
+
 def run(peer: Peer, types: Iterable[str], protocol: Protocol[T]) -> T:
     """Runs a protocol in this thread. `types` are the messages that it waits for."""
     answers = peer.subscribe(types)
@@ -61,6 +69,8 @@ def run(peer: Peer, types: Iterable[str], protocol: Protocol[T]) -> T:
     except StopIteration as end:
         result: T = end.value
         return result
+    except TimeoutError as error:
+        raise explained(peer, error) from None
     finally:
         protocol.close()
         answers.close()
@@ -76,6 +86,8 @@ async def run_async(peer: Peer, types: Iterable[str], protocol: Protocol[T]) -> 
     except StopIteration as end:
         result: T = end.value
         return result
+    except TimeoutError as error:
+        raise explained(peer, error) from None
     finally:
         protocol.close()
         answers.close()

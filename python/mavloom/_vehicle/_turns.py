@@ -59,7 +59,7 @@ def exclusive(peer: Peer, what: str, patience_s: float, protocol: Protocol[T]) -
         answer: Message | None = None
         while True:
             answer = yield protocol.send(answer)
-            if answer is not None and answer.name != "HEARTBEAT":
+            if answer is not None and answer.name not in ("HEARTBEAT", "STATUSTEXT"):
                 turns.note_progress(key)
     except StopIteration as end:
         result: T = end.value

@@ -79,7 +79,7 @@ class Vehicle(_Common):
     """A vehicle on a link, from `link.vehicle()`. Its methods wait for the vehicle's answer.
 
     They resend lost requests. They raise CommandError, ParameterError or MissionError, with the vehicle's reason, if it
-    refuses, and TimeoutError if it does not answer.
+    refuses, and TimeoutError if it does not answer. A CommandError also has the texts that the vehicle sent about it.
 
     Any thread may call them. On one link, calls whose answers cannot be distinguished take turns: transfers of
     missions, fetches of all parameters, commands with the same number, and writes of the same parameter. A waiting call

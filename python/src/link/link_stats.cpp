@@ -14,6 +14,7 @@ namespace mavloom::python {
 std::vector<std::string> hints_of(const dialect::Dialect& dialect, const LinkStats& stats) {
     constexpr std::uint64_t enough = 5;  // fewer may be mere damage
     std::vector<std::string> hints;
+    if (!stats.failure.empty()) hints.push_back(stats.failure);
     for (const auto& [id, errors] : stats.crc_errors) {
         const auto* message = dialect.find(id);
         if (message != nullptr && errors.always && errors.count >= enough)
@@ -132,7 +133,8 @@ void bind_link_stats(nb::module_& module) {
         .def_prop_ro("echo", of_ring<&T::echo>(),
                      "Records of a ring that this link itself sent to the inlet; they are not returned as messages.")
         .def_ro("hints", &LinkStats::hints,
-                "Advice on what to check, as text, for example a message whose checksum is always wrong.")
+                "Advice on what to check, as text, for example why the endpoint is not connected, or a message\n"
+                "whose checksum is always wrong.")
         .def_prop_ro("junk_bytes", of_links<&L::junk_bytes>(), "Bytes that belong to no frame.")
         .def_prop_ro("unknown_ids", of_links<&L::unknown_ids>(),
                      "Valid frames whose id has no definition; `frames_in` includes them.")

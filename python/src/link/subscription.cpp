@@ -74,12 +74,12 @@ PyObject* Subscription::iterate() {
 
 nb::object Subscription::recv(const nb::object& timeout) { return or_closed({}, nb::none(), deadline_after(timeout)); }
 
-nb::object Subscription::recv_match(const nb::object& condition, const nb::object& type, bool blocking,
+nb::object Subscription::recv_match(const nb::object& condition, const nb::object& type, std::optional<bool> blocking,
                                     const nb::object& timeout, const OptionalInteger& system,
                                     const OptionalInteger& component) {
     check_condition(condition);
     const auto filter = make_filter(origin_->dialect(), type, system, component);
-    return or_closed(filter, condition, blocking ? deadline_after(timeout) : MonoTime{});
+    return or_closed(filter, condition, deadline_after(match_timeout(blocking, timeout)));
 }
 
 nb::object Subscription::or_closed(const feed::Filter& filter, const nb::object& condition, MonoTime deadline) {
@@ -180,7 +180,8 @@ bool Subscription::put(PyRingWriter& writer, const feed::FrameBatch::Item& item,
 static constexpr const char* match_signature =
     "def recv_match(self, condition: collections.abc.Callable[[Message], object] | None = None, type: MessageTypes | "
     "None = None, "
-    "blocking: bool = False, timeout: float | None = None, system: int | None = None, component: int | None = None) -> "
+    "blocking: bool | None = None, timeout: float | None = None, system: int | None = None, component: int | None = "
+    "None) -> "
     "Message | None";
 
 void bind_subscription(nb::module_& module) {
@@ -195,10 +196,11 @@ void bind_subscription(nb::module_& module) {
              "Returns the next message, or None after `timeout` seconds (0 polls, None waits indefinitely).\n"
              "Raises ClosedError when the link is closed.")
         .def("recv_match", &Subscription::recv_match, nb::arg("condition") = nb::none(), nb::arg("type") = nb::none(),
-             nb::arg("blocking") = false, nb::arg("timeout") = nb::none(), nb::arg("system") = nb::none(),
+             nb::arg("blocking") = nb::none(), nb::arg("timeout") = nb::none(), nb::arg("system") = nb::none(),
              nb::arg("component") = nb::none(), nb::sig(match_signature),
              "Returns the next message of these types for which `condition(message)` is true, and skips those\n"
-             "before it. Returns None if there is none: at once, or with `blocking` after `timeout` seconds.")
+             "before it. Returns None if there is none: after `timeout` seconds, or at once without a time-out.\n"
+             "With `blocking=True` and no time-out it waits indefinitely; with `blocking=False` it never waits.")
         .def("check_target", &Subscription::check_target, nb::arg("ring"),
              "Raises UsageError if this link reads the ring: `pump` would write the ring's own records into it\n"
              "again.")

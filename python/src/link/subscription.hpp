@@ -35,8 +35,8 @@ public:
     // Returns a new reference, or null at the end (iteration.hpp).
     PyObject* iterate();
     nb::object recv(const nb::object& timeout);
-    nb::object recv_match(const nb::object& condition, const nb::object& type, bool blocking, const nb::object& timeout,
-                          const OptionalInteger& system, const OptionalInteger& component);
+    nb::object recv_match(const nb::object& condition, const nb::object& type, std::optional<bool> blocking,
+                          const nb::object& timeout, const OptionalInteger& system, const OptionalInteger& component);
 
     // Raises UsageError if this link reads `ring`: `pump` would write the ring's own records into it again.
     void check_target(const std::string& ring) const;

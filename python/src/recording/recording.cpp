@@ -41,11 +41,11 @@ public:
     // Returns a new reference, or null at the end.
     PyObject* iterate() { return next_match({}, {}).release().ptr(); }
 
-    nb::object recv_match(const nb::object& condition, const nb::object& type, bool /*blocking*/,
+    nb::object recv_match(const nb::object& condition, const nb::object& type, std::optional<bool> blocking,
                           const nb::object& timeout, const OptionalInteger& system, const OptionalInteger& component) {
         check_condition(condition);
         const auto filter = make_filter(origin_->dialect(), type, system, component);
-        const Limit limit(timeout);
+        const Limit limit(match_timeout(blocking, timeout));
         for (;;) {
             nb::object message = next_match(filter, limit);
             if (!message.is_valid()) return nb::none();
@@ -99,11 +99,8 @@ private:
     // When a call gives up. A poll (time-out 0) looks at everything that is available: for a file, all of it.
     struct Limit {
         Limit() = default;
-        explicit Limit(const nb::object& timeout) {
-            const auto given = timeout_of(timeout);
-            deadline = deadline_after(given);
-            polls = given == Nanoseconds{};
-        }
+        explicit Limit(std::optional<Nanoseconds> timeout)
+            : deadline(deadline_after(timeout)), polls(timeout == Nanoseconds{}) {}
         [[nodiscard]] bool is_over() const { return !polls && mono_now() >= deadline; }
 
         MonoTime deadline = MonoTime::max();
@@ -218,21 +215,24 @@ void bind_recording(nb::module_& module) {
             nb::sig("def __init__(self, path: str | os.PathLike[str], *, type: MessageTypes | None = None, system: int "
                     "| None = None, "
                     "component: int | None = None, dialect: Dialect | None = None) -> None"))
-        .def("recv_match", &Recording::recv_match, nb::arg("condition") = nb::none(), nb::arg("type") = nb::none(),
-             nb::arg("blocking") = false, nb::arg("timeout") = nb::none(), nb::arg("system") = nb::none(),
-             nb::arg("component") = nb::none(),
-             nb::sig("def recv_match(self, condition: collections.abc.Callable[[Message], object] | None = None, type: "
-                     "MessageTypes | None = None, "
-                     "blocking: bool = False, timeout: float | None = None, system: int | None = None, component: int "
-                     "| None = None) -> Message | None"),
-             "Returns the next message of these types for which `condition(message)` is true. Returns None at\n"
-             "the end, or if none was found within `timeout` seconds. With `timeout=0` it searches the whole\n"
-             "file, or everything that a pipe holds now.\n\n"
-             "`blocking` has no effect: reading a file never waits, and reading a pipe always does.")
+        .def(
+            "recv_match", &Recording::recv_match, nb::arg("condition") = nb::none(), nb::arg("type") = nb::none(),
+            nb::arg("blocking") = nb::none(), nb::arg("timeout") = nb::none(), nb::arg("system") = nb::none(),
+            nb::arg("component") = nb::none(),
+            nb::sig(
+                "def recv_match(self, condition: collections.abc.Callable[[Message], object] | None = None, type: "
+                "MessageTypes | None = None, "
+                "blocking: bool | None = None, timeout: float | None = None, system: int | None = None, component: int "
+                "| None = None) -> Message | None"),
+            "Returns the next message of these types for which `condition(message)` is true. Returns None at\n"
+            "the end, or if none was found within `timeout` seconds. Without a time-out it searches the whole\n"
+            "file.\n\n"
+            "Only a pipe makes it wait: at most `timeout` seconds, indefinitely with `blocking=True` and no\n"
+            "time-out, and not at all with `blocking=False` or without both.")
         .def(
             "recv",
             [](Recording& r, const nb::object& timeout) {
-                return r.recv_match(nb::none(), nb::none(), false, timeout, {}, {});
+                return r.recv_match(nb::none(), nb::none(), true, timeout, {}, {});
             },
             nb::arg("timeout") = nb::none(), nb::sig("def recv(self, timeout: float | None = None) -> Message | None"),
             "Returns the next message, or None at the end, or if a pipe has none for `timeout` seconds.")
