@@ -179,6 +179,7 @@ Outcome Flight::change_altitude(double altitude) {
     if (mode().behaviour != impl_->steady_behaviour()) return Result::temporarily_rejected;
     return impl_->carry_out([&]() -> Outcome {
         const Craft& craft = impl_->context.craft;
+        impl_->inputs.offboard.forget();
         impl_->navigator.guidance().stay(place_of(craft, nan, nan, altitude, present_place(*impl_)));
         return Result::accepted;
     });

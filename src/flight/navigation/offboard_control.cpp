@@ -2,6 +2,7 @@
 #include "flight/navigation/offboard_control.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace mavloom::flight {
 
@@ -11,13 +12,13 @@ void OffboardControl::begin() {
 }
 
 // While no set-point is fresh, the manoeuvre of an order such as a take-off continues. If the set-points end, the
-// vehicle stops.
+// vehicle stops. If an order replaced them, they are forgotten.
 void OffboardControl::update() {
     if (inputs_.offboard.is_fresh(context_.input_time(), context_.tuning.offboard_loss)) {
         follows_ = true;
         return guidance_.follow(followed(*inputs_.offboard.value()));
     }
-    if (follows_) begin();
+    if (std::exchange(follows_, false) && inputs_.offboard.was_heard()) guidance_.stop();
 }
 
 Setpoint OffboardControl::followed(const OffboardSetpoint& given) const {

@@ -56,6 +56,7 @@ OffboardSetpoint motion_of(const Message& m) noexcept {
 }
 
 bool is_given(const Vector3& vector) noexcept { return !vector.array().isNaN().all(); }
+bool is_whole(const Vector3& vector) noexcept { return !vector.array().isNaN().any(); }
 bool has_infinity(const Vector3& vector) noexcept { return vector.array().isInf().any(); }
 
 // Asks for something, and for nothing infinite.
@@ -63,6 +64,17 @@ bool is_valid_trajectory(const OffboardSetpoint& s) noexcept {
     const bool is_finite = !has_infinity(s.position) && !has_infinity(s.velocity) && !has_infinity(s.acceleration) &&
                            !std::isinf(s.yaw) && !std::isinf(s.yaw_rate);
     return is_finite && (is_given(s.position) || is_given(s.velocity) || is_given(s.acceleration));
+}
+
+// Only an acceleration can be a force. In masks that exclude the acceleration, clients set the bit without a meaning.
+bool asks_for_force(unsigned mask, const OffboardSetpoint& s) noexcept {
+    return (mask & POSITION_TARGET_TYPEMASK_FORCE_SET) != 0 && is_given(s.acceleration);
+}
+
+// Leaves out vectors of which the client excluded an axis.
+void drop_incomplete(OffboardSetpoint& s) noexcept {
+    for (Vector3* const vector : {&s.position, &s.velocity, &s.acceleration})
+        if (!is_whole(*vector)) *vector = Vector3::Constant(nan);
 }
 
 // Turns a vector by the heading, from the body into the local frame. Clients of body frames mean a level body.
@@ -165,11 +177,24 @@ void Controls::reject(std::string_view message, Moment now) {
     parts_.on_text(Severity::error, std::string(message) + " invalid");
 }
 
+// ArduPilot's copters obey a vector only if all its axes are there.
+bool Controls::needs_all_axes() const noexcept {
+    return !parts_.firmware.is_px4() && parts_.options.kind == Kind::quad;
+}
+
+// ArduPilot's rovers turn on the spot by a heading or a rate alone.
+void Controls::complete(OffboardSetpoint& setpoint) const noexcept {
+    if (needs_all_axes()) drop_incomplete(setpoint);
+    const bool turns = !std::isnan(setpoint.yaw) || !std::isnan(setpoint.yaw_rate);
+    const bool is_turn = turns && !is_given(setpoint.position) && !is_given(setpoint.velocity);
+    if (is_turn && !parts_.firmware.is_px4() && parts_.options.kind == Kind::rover) setpoint.velocity.setZero();
+}
+
 // ArduPilot flies to a position that it got once. All else must be repeated.
 void Controls::steer(OffboardSetpoint setpoint, std::string_view message, Moment now) {
+    complete(setpoint);
     if (!is_valid_trajectory(setpoint)) return reject(message, now);
-    const bool is_goal = !setpoint.position.array().isNaN().any() && !is_given(setpoint.velocity) &&
-                         !is_given(setpoint.acceleration);
+    const bool is_goal = is_whole(setpoint.position) && !is_given(setpoint.velocity) && !is_given(setpoint.acceleration);
     if (parts_.firmware.is_px4() || !is_goal) return parts_.flight.on_offboard(setpoint);
     constexpr double farthest = 1e6;  // m; farther away, the frame has no meaning
     if (!(setpoint.position.norm() < farthest)) return reject(message, now);
@@ -181,8 +206,8 @@ void Controls::steer(OffboardSetpoint setpoint, std::string_view message, Moment
                                     .may_change_mode = false});
 }
 
-// Frames with an offset count from where the vehicle is. In BODY_NED, PX4 takes velocities only; for ArduPilot it is
-// BODY_OFFSET_NED. A yaw in ArduPilot's body frames is relative.
+// Frames with an offset count from where the vehicle is. In BODY_NED, PX4 takes no position, and needs all axes of the
+// rest; for ArduPilot it is BODY_OFFSET_NED. A yaw in ArduPilot's body frames is relative.
 void Controls::on_local_target(ByteView payload, Moment now) {
     const auto m = SetPositionTargetLocalNed::decode(payload);
     const auto field = [&](unsigned bit, float value) { return (m.type_mask & bit) != 0 ? nan : double{value}; };
@@ -190,13 +215,14 @@ void Controls::on_local_target(ByteView payload, Moment now) {
     setpoint.position = {field(POSITION_TARGET_TYPEMASK_X_IGNORE, m.x), field(POSITION_TARGET_TYPEMASK_Y_IGNORE, m.y),
                          field(POSITION_TARGET_TYPEMASK_Z_IGNORE, m.z)};
     const bool is_px4 = parts_.firmware.is_px4();
-    const bool is_body = is_body_frame(m.coordinate_frame);
-    const bool forbids_position = is_px4 && m.coordinate_frame == MAV_FRAME_BODY_NED;
-    if (!is_local_frame(m.coordinate_frame) || (m.type_mask & POSITION_TARGET_TYPEMASK_FORCE_SET) != 0 ||
-        (forbids_position && is_given(setpoint.position)))
+    if (!is_local_frame(m.coordinate_frame) || asks_for_force(m.type_mask, setpoint))
         return reject(SetPositionTargetLocalNed::name, now);
     const Estimate& estimate = parts_.flight.estimate();
-    if (is_body) {
+    if (is_px4 && m.coordinate_frame == MAV_FRAME_BODY_NED) {
+        setpoint.position.setConstant(nan);
+        drop_incomplete(setpoint);
+    }
+    if (is_body_frame(m.coordinate_frame)) {
         for (Vector3* const vector : {&setpoint.position, &setpoint.velocity, &setpoint.acceleration})
             *vector = turned(*vector, estimate.euler.yaw);
         if (!is_px4) setpoint.yaw += estimate.euler.yaw;
@@ -216,12 +242,14 @@ void Controls::on_global_target(ByteView payload, Moment now) {
                         .z = double{m.alt},
                         .frame = m.coordinate_frame};
     const bool is_on_earth = std::abs(place.x) <= 90 && std::abs(place.y) <= 180;
-    if (!has_global_frame(place) || (m.type_mask & POSITION_TARGET_TYPEMASK_FORCE_SET) != 0 ||
-        (has_place && !is_on_earth) || (has_height && std::isinf(m.alt)))
+    const bool has_unknown_frame = (has_place || has_height) && !has_global_frame(place);
+    if (has_unknown_frame || asks_for_force(m.type_mask, setpoint) || (has_place && !is_on_earth) ||
+        (has_height && std::isinf(m.alt)))
         return reject(SetPositionTargetGlobalInt::name, now);
     const LocalFrame& frame = parts_.flight.frame();
     if (has_place) setpoint.position.head<2>() = frame.to_local({place.x, place.y, 0}).head<2>();
     if (has_height) setpoint.position.z() = frame.origin().altitude - altitude_of(place, parts_);
+    if (parts_.firmware.is_px4() && !is_whole(setpoint.position)) setpoint.position.setConstant(nan);
     steer(setpoint, SetPositionTargetGlobalInt::name, now);
 }
 

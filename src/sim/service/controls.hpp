@@ -43,6 +43,8 @@ private:
     [[nodiscard]] bool may_steer(const Client& from) const noexcept;
     [[nodiscard]] Sticks sticks_of_channels() const noexcept;
     [[nodiscard]] double channel(std::string_view map) const noexcept;
+    [[nodiscard]] bool needs_all_axes() const noexcept;
+    void complete(OffboardSetpoint& setpoint) const noexcept;
     void steer(OffboardSetpoint setpoint, std::string_view message, Moment now);
     void reject(std::string_view message, Moment now);
 

@@ -7,6 +7,7 @@
 #include "mavloom/msg/gps_global_origin.hpp"
 #include "mavloom/msg/local_position_ned.hpp"
 #include "mavloom/msg/manual_control.hpp"
+#include "mavloom/msg/mission_item.hpp"
 #include "mavloom/msg/rc_channels_override.hpp"
 #include "mavloom/msg/set_actuator_control_target.hpp"
 #include "mavloom/msg/set_attitude_target.hpp"
@@ -173,7 +174,7 @@ void expect_rejected(const Message& message) {
 TEST(Controls, RejectsPositionTargetsWithoutSense) {
     expect_rejected(local_target(nothing_mask));
     expect_rejected(local_target(nothing_mask & ~0x400));    // a yaw alone
-    expect_rejected(local_target(velocity_mask | 512));      // force
+    expect_rejected(local_target(acceleration_mask | 512));  // force
     expect_rejected(local_target(velocity_mask, 12));        // a frame that PX4 does not know
     expect_rejected(local_target(position_mask, body_ned));  // PX4 takes velocities only
     auto infinite = local_target(velocity_mask);
@@ -259,6 +260,32 @@ TEST(Controls, ArduPilotStopsWhenVelocitiesEnd) {
     bench.rig.run(8.0);
     EXPECT_NEAR(speed(bench), 0, 0.2);
     EXPECT_EQ(bench.state().mode, "GUIDED");
+}
+
+// DroneKit's simple_goto() while velocities are still fresh: the newer order counts.
+TEST(Controls, ArduPilotFliesToAGoalThatFollowsVelocities) {
+    Bench bench(Autopilot::ardupilot);
+    auto target = local_target(velocity_mask);
+    target.vx = 3;
+    ASSERT_TRUE(begin(bench, target));
+    repeat(bench, target, 3);
+    bench.rig.send(msg::MissionItem{.target_system = 1,
+                                    .target_component = 1,
+                                    .frame = 3,
+                                    .command = 16,
+                                    .current = 2,
+                                    .x = 47.397742f,
+                                    .y = 8.5457f,
+                                    .z = 12});
+    bench.rig.run(15.0);
+    EXPECT_NEAR(bench.east(), 8, 1);
+    EXPECT_NEAR(bench.state().relative_altitude_m, 12, 0.7);
+}
+
+TEST(Controls, ADisarmedVehicleTakesEveryModeButCannotBeArmedInOffboard) {
+    Bench bench;
+    EXPECT_EQ(bench.command(176, {1, 6}), accepted);
+    EXPECT_EQ(bench.arm(), temporarily_rejected);
 }
 
 TEST(Controls, ArduPilotIgnoresPositionsOutsideOfGuided) {
