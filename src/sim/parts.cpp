@@ -10,8 +10,9 @@
 #include "mavloom/msg/heartbeat.hpp"
 #include "mavloom/msg/home_position.hpp"
 #include "mavloom/msg/mission_current.hpp"
+#include "sim/calibration/calibration.hpp"
+#include "sim/calibration/compass_calibration.hpp"
 #include "sim/payload/gimbal.hpp"
-#include "sim/service/calibration.hpp"
 #include "sim/service/events.hpp"
 #include "sim/service/guard.hpp"
 #include "sim/service/other_services.hpp"
@@ -42,6 +43,7 @@ Parts::Parts(const VehicleOptions& given, Sink& sink, Moment moment)
       file_service(std::make_unique<FileService>(*this)),
       event_service(std::make_unique<EventService>(*this)),
       calibration_service(std::make_unique<CalibrationService>(*this)),
+      compass_calibration(std::make_unique<CompassCalibration>(*this)),
       other_services(make_other_services(*this)),
       created_(moment) {
     parameters.put(firmware.system_parameter(), options.system.value);
@@ -54,6 +56,7 @@ Parts::Parts(const VehicleOptions& given, Sink& sink, Moment moment)
     add(*log_service);
     add(*event_service);
     add(*calibration_service);
+    add(*compass_calibration);
     for (const auto& service : other_services) add(*service);
 }
 

@@ -27,6 +27,7 @@
 namespace mavloom::sim {
 
 class CalibrationService;
+class CompassCalibration;
 class EventService;
 class FileService;
 class Gimbal;
@@ -60,6 +61,7 @@ struct Parts final : FlightObserver {
     std::unique_ptr<FileService> file_service;
     std::unique_ptr<EventService> event_service;
     std::unique_ptr<CalibrationService> calibration_service;
+    std::unique_ptr<CompassCalibration> compass_calibration;
     std::vector<std::unique_ptr<Service>> other_services;
     std::vector<Service*> services;                // all of them
     std::function<bool(SystemId)> is_free_system;  // empty: all ids are free

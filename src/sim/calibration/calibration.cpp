@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim/service/calibration.hpp"
+#include "sim/calibration/calibration.hpp"
 
 #include <fmt/format.h>
 

@@ -8,9 +8,10 @@
 #include "mavloom/msg/enums/failure_unit.hpp"
 #include "mavloom/msg/enums/mav_cmd.hpp"
 #include "mavloom/msg/sys_status.hpp"
+#include "sim/calibration/calibration.hpp"
+#include "sim/calibration/compass_calibration.hpp"
 #include "sim/command/commands.hpp"
 #include "sim/parts.hpp"
-#include "sim/service/calibration.hpp"
 #include "sim/service/events.hpp"
 #include "sim/store/parameter_service.hpp"
 
@@ -53,6 +54,22 @@ Outcome calibrate(Parts& parts, const Command& command, Moment now) {
 
 Outcome confirm_position(Parts& parts, const Command& command, Moment now) {
     return parts.calibration_service->confirm(command.from, now) ? Result::accepted : Result::denied;
+}
+
+Outcome start_compass_calibration(Parts& parts, const Command& command, Moment now) {
+    return parts.compass_calibration->start(command, now);
+}
+
+Outcome accept_compass_calibration(Parts& parts, const Command& command, Moment now) {
+    return parts.compass_calibration->accept(command, now);
+}
+
+Outcome cancel_compass_calibration(Parts& parts, const Command& command, Moment /*now*/) {
+    return parts.compass_calibration->cancel(command);
+}
+
+Outcome calibrate_compass_by_heading(Parts& parts, const Command& command, Moment /*now*/) {
+    return parts.compass_calibration->calibrate_by_heading(command);
 }
 
 // --- Failures
@@ -118,6 +135,10 @@ constexpr std::array maintenance_rows{
     CommandRow{MAV_CMD_RUN_PREARM_CHECKS, run_checks},
     CommandRow{MAV_CMD_PREFLIGHT_CALIBRATION, calibrate},
     CommandRow{MAV_CMD_ACCELCAL_VEHICLE_POS, confirm_position, KnownBy::ardupilot},
+    CommandRow{MAV_CMD_DO_START_MAG_CAL, start_compass_calibration, KnownBy::ardupilot},
+    CommandRow{MAV_CMD_DO_ACCEPT_MAG_CAL, accept_compass_calibration, KnownBy::ardupilot},
+    CommandRow{MAV_CMD_DO_CANCEL_MAG_CAL, cancel_compass_calibration, KnownBy::ardupilot},
+    CommandRow{MAV_CMD_FIXED_MAG_CAL_YAW, calibrate_compass_by_heading, KnownBy::ardupilot},
     CommandRow{MAV_CMD_INJECT_FAILURE, inject_failure, KnownBy::px4},
     CommandRow{MAV_CMD_DO_AUTOTUNE_ENABLE, tune, KnownBy::px4},
     CommandRow{MAV_CMD_DO_SEND_BANNER, send_banner, KnownBy::ardupilot},

@@ -48,6 +48,8 @@
 #include "mavloom/msg/hwstatus.hpp"
 #include "mavloom/msg/link_node_status.hpp"
 #include "mavloom/msg/local_position_ned.hpp"
+#include "mavloom/msg/mag_cal_progress.hpp"
+#include "mavloom/msg/mag_cal_report.hpp"
 #include "mavloom/msg/mcu_status.hpp"
 #include "mavloom/msg/meminfo.hpp"
 #include "mavloom/msg/mission_current.hpp"
@@ -144,6 +146,8 @@ constexpr std::array projection_table{
     row<msg::Wind>(write_wind, KnownBy::ardupilot),
     row<msg::Rangefinder>(write_rangefinder, KnownBy::ardupilot),
     row<msg::Ahrs2>(write_ahrs2, KnownBy::ardupilot),
+    row<msg::MagCalProgress>(nullptr, KnownBy::ardupilot),
+    row<msg::MagCalReport>(nullptr, KnownBy::ardupilot),
     row<msg::EkfStatusReport>(write_ekf_status_report, KnownBy::ardupilot),
     row<msg::EstimatorStatus>(write_estimator_status, KnownBy::px4),
     row<msg::WindCov>(write_wind_cov),

@@ -359,6 +359,20 @@ def test_b32_a_reboot(sim):
     assert len(station.download()) == 2
 
 
+def test_b33_ardupilot_calibrates_its_compasses(sim):
+    """As QGroundControl does it: all compasses, saved by the vehicle itself."""
+    with sim("--autopilot", "ardupilot", "--speed", 20).station() as station:
+        mark = station.mark()
+        assert station.command(mavlink.MAV_CMD_DO_START_MAG_CAL, 0, 0, 1) == ACCEPTED
+        station.expect("MAG_CAL_PROGRESS", since=mark, where=lambda m: m.completion_pct > 50)
+        report = station.expect("MAG_CAL_REPORT", since=mark)
+        for compass in range(8):
+            if report.cal_mask >> compass & 1:
+                last = station.expect("MAG_CAL_REPORT", since=mark, where=lambda m: m.compass_id == compass)
+                assert (last.cal_status, last.autosaved) == (mavlink.MAG_CAL_SUCCESS, 1)
+        assert station.command(mavlink.MAV_CMD_DO_CANCEL_MAG_CAL, 0) == ACCEPTED
+
+
 def test_b33_mavsdk_calibrates_the_gyro(sim):
     simulator = sim("--speed", "5")
     simulator.station()
