@@ -136,7 +136,7 @@ Outcome CompassCalibration::calibrate_by_heading(const Command& command) {
     return Result::accepted;
 }
 
-// --- What goes on
+// --- Progress
 
 void CompassCalibration::pump(Moment now) {
     if (now.flight < next_) return;

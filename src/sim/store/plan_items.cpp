@@ -224,15 +224,15 @@ PlanItem item_of(const msg::MissionItem& message) noexcept {
 
 msg::MissionItemInt int_form(const PlanItem& item, bool is_px4) noexcept {
     auto message = message_of<msg::MissionItemInt>(item);
-    message.frame = is_px4 ? variant_of(item.frame, true) : item.frame;
+    message.frame = variant_of(item.frame, is_px4);
     message.x = item.x;
     message.y = item.y;
     return message;
 }
 
-msg::MissionItem float_form(const PlanItem& item, bool is_px4) noexcept {
+msg::MissionItem float_form(const PlanItem& item) noexcept {
     auto message = message_of<msg::MissionItem>(item);
-    message.frame = is_px4 ? variant_of(item.frame, false) : item.frame;
+    message.frame = variant_of(item.frame, false);
     message.x = to_float(item.x, scale_of(item.frame));
     message.y = to_float(item.y, scale_of(item.frame));
     return message;

@@ -24,9 +24,9 @@ namespace mavloom::sim {
 [[nodiscard]] PlanItem item_of(const msg::MissionItem& message) noexcept;
 
 // The fields of an item without target, seq, type and `current`. PX4 reports a global frame in the variant of the
-// message (MAV_FRAME_GLOBAL_INT for MISSION_ITEM_INT); ArduPilot returns the frame that was uploaded.
+// message (MAV_FRAME_GLOBAL_INT for MISSION_ITEM_INT); ArduPilot always in that of MISSION_ITEM.
 [[nodiscard]] msg::MissionItemInt int_form(const PlanItem& item, bool is_px4) noexcept;
-[[nodiscard]] msg::MissionItem float_form(const PlanItem& item, bool is_px4) noexcept;
+[[nodiscard]] msg::MissionItem float_form(const PlanItem& item) noexcept;
 
 // The MAV_MISSION_RESULT for an item of a plan of `count` items.
 [[nodiscard]] std::uint8_t check_item(const PlanItem& item, PlanType type, std::uint16_t count, bool is_px4) noexcept;

@@ -43,9 +43,19 @@ constexpr std::array plan_ids{MissionCount::id,
                               MissionWritePartialList::id,
                               MissionRequestPartialList::id};
 
-// PX4's times.
-constexpr Nanoseconds repeat_request_after = std::chrono::milliseconds{250};
-constexpr Nanoseconds transfer_timeout = std::chrono::seconds{5};
+// Of a transfer without an answer.
+struct Patience {
+    Nanoseconds before_repeat, before_end;
+    std::string_view end;
+};
+constexpr Patience px4_patience{std::chrono::milliseconds{250}, std::chrono::seconds{5}, "Mission sync timeout"};
+constexpr Patience ardupilot_patience{std::chrono::seconds{1}, std::chrono::seconds{8}, "Mission upload timeout"};
+// How many requests of PX4's usual form stay without an answer before it tries the other form.
+constexpr unsigned tries_of_form = 4;
+
+const Patience& patience_of(const Firmware& firmware) noexcept {
+    return firmware.is_px4() ? px4_patience : ardupilot_patience;
+}
 constexpr int reached_repeats = 10;
 constexpr Nanoseconds reached_interval = std::chrono::seconds{1};
 
@@ -71,12 +81,14 @@ double altitude_of(const PlanItem& item, const Flight& flight) {
 std::span<const MessageId> PlanService::handled() const noexcept { return plan_ids; }
 
 void PlanService::receive(const Client& from, MessageId id, ByteView payload, Moment now) {
-    const auto on_form = [&](const auto& m) { on_item(from, {item_of(m), m.seq, m.current, m.mission_type}, now); };
+    const auto on_form = [&](const auto& m, bool is_int) {
+        on_item(from, {item_of(m), m.seq, m.current, m.mission_type, is_int}, now);
+    };
     const auto on_item_request = [&](const auto& m, bool is_int) {
         on_request(from, m.seq, m.mission_type, is_int, now);
     };
-    if (id == MissionItemInt::id) return on_form(MissionItemInt::decode(payload));
-    if (id == MissionItem::id) return on_form(MissionItem::decode(payload));
+    if (id == MissionItemInt::id) return on_form(MissionItemInt::decode(payload), true);
+    if (id == MissionItem::id) return on_form(MissionItem::decode(payload), false);
     if (id == MissionRequestInt::id) return on_item_request(MissionRequestInt::decode(payload), true);
     if (id == MissionRequest::id) return on_item_request(MissionRequest::decode(payload), false);
     if (id == MissionCount::id) return on_count(from, MissionCount::decode(payload), now);
@@ -108,7 +120,8 @@ PlanService::Transfer* PlanService::begin_upload(const Client& from, PlanType ty
     if (is_uploaded_by_another(from, type)) return nullptr;
     drop(from, type);
     if (!make_room(transfers_, from.link, parts_.options.limits.clients)) return nullptr;
-    transfers_.push_back({.client = from, .type = type, .stage = Stage::upload, .heard = now.real});
+    transfers_.push_back(
+        {.client = from, .type = type, .stage = Stage::upload, .asks_int = parts_.firmware.is_px4(), .heard = now.real});
     return &transfers_.back();
 }
 
@@ -137,9 +150,13 @@ void PlanService::on_item(const Client& from, const Request& request, Moment now
         return on_guided_item(from, request);
     const auto type = plan_type(request.mission_type);
     Transfer* const transfer = type ? find(from, *type) : nullptr;
-    if (transfer == nullptr || transfer->stage == Stage::download)
+    if (transfer == nullptr || transfer->stage == Stage::download) {
+        if (parts_.firmware.is_px4()) parts_.on_text(Severity::critical, "IGN MISSION_ITEM: No transfer");
         return acknowledge(from, request.mission_type, MAV_MISSION_ERROR);
+    }
     transfer->heard = now.real;
+    transfer->has_form = true;
+    if (parts_.firmware.is_px4()) transfer->asks_int = request.is_int;
     if (transfer->stage == Stage::finished) {
         // The last MISSION_ACK was lost.
         const std::uint32_t id = parts_.flight.plans().of(*type).id();
@@ -183,7 +200,17 @@ void PlanService::replace(PlanType type, std::vector<PlanItem> items) {
     parts_.on_mission_progress();  // MISSION_CURRENT has the ids of all plans
 }
 
-void PlanService::ask(Transfer& transfer, Moment now) {
+// PX4 changes to the form that its client speaks. ArduPilot always asks by MISSION_REQUEST, and takes both answers.
+void PlanService::ask(Transfer& transfer, Moment now) { request_item(transfer, transfer.asks_int, now); }
+
+// Clients that know only one form of the request do not answer the other one.
+void PlanService::ask_again(Transfer& transfer, Moment now) {
+    const bool may_try = parts_.firmware.is_px4() && !transfer.has_form;
+    const bool tries_other_form = may_try && ++transfer.repeats % tries_of_form == 0;
+    request_item(transfer, transfer.asks_int != tries_other_form, now);
+}
+
+void PlanService::request_item(Transfer& transfer, bool as_int, Moment now) {
     transfer.sent = now.real;
     const auto fill = [&](auto message) {
         message.target_system = transfer.client.id.system.value;
@@ -192,7 +219,7 @@ void PlanService::ask(Transfer& transfer, Moment now) {
         message.mission_type = number_of(transfer.type);
         parts_.radio.send(transfer.client.link, message);
     };
-    if (transfer.asks_int) return fill(MissionRequestInt{});
+    if (as_int) return fill(MissionRequestInt{});
     fill(MissionRequest{});
 }
 
@@ -240,15 +267,20 @@ void PlanService::on_request(const Client& from, std::uint16_t seq, std::uint8_t
         transfer->heard = now.real;
         transfer->was_asked = true;
     }
-    if (seq >= plan.size()) return acknowledge(from, mission_type, MAV_MISSION_INVALID_SEQUENCE);
+    if (seq >= plan.size() && !is_home(*type, seq))
+        return acknowledge(from, mission_type, MAV_MISSION_INVALID_SEQUENCE);
     send_item(from, *type, seq, is_int);
 }
 
-// ArduPilot returns the present home as item 0.
+// ArduPilot returns the present home as item 0, also if there is no mission.
+bool PlanService::is_home(PlanType type, std::uint16_t seq) const noexcept {
+    return type == PlanType::mission && seq == 0 && parts_.firmware.has_home_in_mission();
+}
+
 PlanItem PlanService::stored_item(PlanType type, std::uint16_t seq) const {
+    if (!is_home(type, seq)) return parts_.flight.plans().of(type).items()[seq];
     const auto& home = parts_.flight.home();
-    if (type != PlanType::mission || seq != 0 || !parts_.firmware.has_home_in_mission() || !home)
-        return parts_.flight.plans().of(type).items()[seq];
+    if (!home) return {.command = MAV_CMD_NAV_WAYPOINT, .frame = MAV_FRAME_GLOBAL};
     return {.command = MAV_CMD_NAV_WAYPOINT,
             .frame = MAV_FRAME_GLOBAL,
             .x = static_cast<std::int32_t>(std::lround(home->latitude * 1e7)),
@@ -268,7 +300,7 @@ void PlanService::send_item(const Client& to, PlanType type, std::uint16_t seq, 
         parts_.radio.send(to.link, message);
     };
     if (is_int) return fill(int_form(item, is_px4));
-    fill(float_form(item, is_px4));
+    fill(float_form(item));
 }
 
 // --- Both
@@ -279,8 +311,8 @@ void PlanService::on_ack(const Client& from, ByteView payload, Moment now) {
     Transfer* const transfer = type ? find(from, *type) : nullptr;
     if (transfer == nullptr || transfer->stage == Stage::finished) return;
     if (transfer->stage == Stage::download || message.type == MAV_MISSION_OPERATION_CANCELLED) return drop(from, *type);
-    if (message.type != MAV_MISSION_UNSUPPORTED || !transfer->asks_int) return;
-    transfer->asks_int = false;
+    if (message.type != MAV_MISSION_UNSUPPORTED || !parts_.firmware.is_px4()) return;
+    transfer->asks_int = !transfer->asks_int;
     transfer->heard = now.real;
     ask(*transfer, now);
 }
@@ -340,14 +372,15 @@ void PlanService::pump(Moment now) {
 }
 
 bool PlanService::keep_alive(Transfer& transfer, Moment now) {
-    if (now.real - transfer.heard >= transfer_timeout) {
+    const Patience& patience = patience_of(parts_.firmware);
+    if (now.real - transfer.heard >= patience.before_end) {
         if (transfer.stage != Stage::upload) return false;
-        parts_.announcer.say(Severity::critical, "Mission sync timeout", now.flight);
+        parts_.announcer.say(Severity::critical, patience.end, now.flight);
         acknowledge(transfer.client, number_of(transfer.type), MAV_MISSION_OPERATION_CANCELLED);
         return false;
     }
-    if (now.real - transfer.sent < repeat_request_after) return true;
-    if (transfer.stage == Stage::upload) ask(transfer, now);
+    if (now.real - transfer.sent < patience.before_repeat) return true;
+    if (transfer.stage == Stage::upload) ask_again(transfer, now);
     if (transfer.stage == Stage::download && !transfer.was_asked) send_count(transfer, now);
     return true;
 }

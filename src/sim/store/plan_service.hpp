@@ -3,9 +3,9 @@
 // Source: MAVLink guide, "Mission Protocol".
 //
 // A transfer belongs to a client and a type of plan. One client at a time may upload a type. Its items are buffered and
-// replace the plan only at the end. While an upload waits for an item, the service repeats its request every 250 ms. If
-// the client sends nothing for 5 s, the service gives up, and the old plan stays. A client may download items in any
-// order and need not send the final MISSION_ACK.
+// replace the plan only at the end. While an upload waits for an item, the service repeats its request every 250 ms (as
+// ArduPilot: every second). If the client sends nothing for 5 s (8 s), the service gives up, and the old plan stays. A
+// client may download items in any order and need not send the final MISSION_ACK.
 #pragma once
 
 #include <optional>
@@ -44,8 +44,10 @@ private:
         Client client;
         PlanType type;
         Stage stage;
-        bool asks_int = true;    // upload: by MISSION_REQUEST_INT; false: the client knows only MISSION_REQUEST
-        bool was_asked = false;  // download: a request has arrived, so MISSION_COUNT is not repeated
+        bool asks_int = true;                    // upload: by MISSION_REQUEST_INT; false: by MISSION_REQUEST
+        bool has_form = false;                   // upload: an item has shown which form the client speaks
+        bool was_asked = false;                  // download: a request has arrived, so MISSION_COUNT is not repeated
+        unsigned repeats = 0;                    // upload: of the request, until an item arrives
         std::uint16_t next = 0, end = 0;         // upload: the item that is awaited, and one past the last one
         std::uint32_t edition = 0;               // download: of the plan
         std::optional<std::uint16_t> current{};  // upload: the item that the client marked as current
@@ -56,6 +58,7 @@ private:
         PlanItem item;
         std::uint16_t seq;
         std::uint8_t current, mission_type;
+        bool is_int;
     };
     struct Reached {
         std::uint16_t seq = 0;
@@ -80,7 +83,10 @@ private:
     void replace(PlanType type, std::vector<PlanItem> items);
     [[nodiscard]] PlanItem stored_item(PlanType type, std::uint16_t seq) const;
     void send_item(const Client& to, PlanType type, std::uint16_t seq, bool is_int);
+    [[nodiscard]] bool is_home(PlanType type, std::uint16_t seq) const noexcept;
     void ask(Transfer& transfer, Moment now);
+    void ask_again(Transfer& transfer, Moment now);
+    void request_item(Transfer& transfer, bool as_int, Moment now);
     void send_count(Transfer& transfer, Moment now);
     void acknowledge(const Client& to, std::uint8_t mission_type, std::uint8_t result, std::uint32_t plan_id = 0);
     // Returns false once the transfer is over.

@@ -363,6 +363,19 @@ def raw_plans(sdk, mission_rows, fence_rows, rally_rows):
 
 
 @step
+def refused_of_ardupilot(sdk, rows):
+    """ArduPilot has no orbits, and its missions begin with home, in a frame that MAVSDK's missions do not know."""
+    plugin, action = raw_missions.MissionRaw(sdk.system), actions.Action(sdk.system)
+    sdk.healthy()
+    home = sdk.telemetry.position()
+    answer = {"orbit": result_of(action.do_orbit, 20.0, 3.0, actions.OrbitYawBehavior(0), home.latitude_deg,
+                                 home.longitude_deg, home.absolute_altitude_m + 15)}
+    answer["upload"] = result_of(plugin.upload_mission, raw_items(rows))
+    answer["download"] = result_of(missions.Mission(sdk.system).download_mission)
+    emit(**answer, raw=rows_of(plugin.download_mission()))
+
+
+@step
 def raw_mission(sdk, rows):
     """Flies a plan to its end."""
     plugin, action = raw_missions.MissionRaw(sdk.system), actions.Action(sdk.system)

@@ -308,6 +308,20 @@ def test_mavsdk_flies_ardupilot(sim, kind):
     assert down["results"] == ["SUCCESS"]
 
 
+def test_mavsdk_gets_the_answers_of_ardupilot(sim):
+    """ArduPilot has no DO_ORBIT. Its missions begin with home, in a frame that MAVSDK's `mission` does not support."""
+    simulator = start(sim, "ardupilot")
+    simulator.station()
+    rows = [[seq, 6, command, int(seq == 0), 1, 0, 0, 0, 0, 473979420, 85455940, 8.0, 0]
+            for seq, command in enumerate((16, 22, 16))]
+    answer = mavsdks.run(simulator.port, "refused_of_ardupilot", rows)
+
+    assert answer["orbit"] == answer["download"] == "UNSUPPORTED"
+    assert answer["upload"] == "SUCCESS"
+    assert [row[1] for row in answer["raw"]] == [0, 3, 3]
+    assert [row[9] for row in answer["raw"][1:]] == [473979420] * 2
+
+
 # ---- MAVProxy
 
 @pytest.fixture

@@ -274,8 +274,11 @@ SLOW_LOSS = {"COM_OF_LOSS_T": 20.0}  # the tests' own threads may be slow
 
 def test_b75_offboard_needs_set_points(sim):
     station = ready_vehicle(sim, speed=OFFBOARD_SPEED, parameters=SLOW_LOSS)
+    assert station.command(176, 1, 6) == ACCEPTED
+    assert station.command(400, 1) == 1  # TEMPORARILY_REJECTED: Offboard without set-points
+    assert station.command(176, 1, 4, 3) == ACCEPTED
     take_off(station)
-    assert station.command(176, 1, 6) == 1  # TEMPORARILY_REJECTED
+    assert station.command(176, 1, 6) == 1
     assert station.expect("HEARTBEAT").custom_mode == HOLD
     with Setpoints(station, lambda: local(VELOCITY)):
         station.until(lambda: station.command(176, 1, 6) == ACCEPTED, 5, "Offboard with set-points")

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every type_mask that a client or a guide sends, and whether a real vehicle obeys it. The answers are those of PX4's
-// mavlink_receiver.cpp and of ArduPilot's GCS_MAVLink_Copter.cpp and GCS_MAVLink_Rover.cpp, with one exception: PX4 knows
-// the frames 1 and 8 only, and the simulated PX4 takes 7 and 9 too.
+// mavlink_receiver.cpp and of ArduPilot's GCS_MAVLink_Copter.cpp and GCS_MAVLink_Rover.cpp. There is one exception: PX4
+// knows the frames 1 and 8 only, and the simulated PX4 takes 7 and 9 too.
 #include <gmock/gmock.h>
 
 #include <string_view>

@@ -311,6 +311,36 @@ TEST_F(PlanService, AsksByMissionRequestAfterTheClientRefusedTheIntegerForm) {
     EXPECT_EQ(rig.last<MissionItemInt>()->frame, MAV_FRAME_GLOBAL_RELATIVE_ALT_INT) << "PX4's variant for this message";
 }
 
+// DroneKit does not know MISSION_REQUEST_INT.
+TEST_F(PlanService, TriesMissionRequestWithAClientThatDoesNotAnswer) {
+    announce(2);
+    rig.run(0.9);
+    EXPECT_EQ(rig.all<MissionRequestInt>().size(), 4u);
+    EXPECT_FALSE(rig.last<MissionRequest>());
+    rig.run(0.2);
+    ASSERT_TRUE(rig.last<MissionRequest>());
+    EXPECT_EQ(rig.last<MissionRequest>()->seq, 0);
+
+    rig.forget();
+    rig.send(MissionItem{.target_system = 1,
+                         .target_component = 1,
+                         .frame = MAV_FRAME_GLOBAL_RELATIVE_ALT,
+                         .command = MAV_CMD_NAV_WAYPOINT,
+                         .x = 47.5f,
+                         .y = 8.5f,
+                         .z = 10});
+    ASSERT_TRUE(rig.last<MissionRequest>()) << "the form that the client speaks";
+    EXPECT_EQ(rig.last<MissionRequest>()->seq, 1);
+    EXPECT_FALSE(rig.last<MissionRequestInt>());
+}
+
+TEST_F(PlanService, ReportsAnItemThatBelongsToNoTransfer) {
+    rig.send(waypoint(0));
+    EXPECT_EQ(last_result(), MAV_MISSION_ERROR);
+    ASSERT_TRUE(rig.last<Statustext>());
+    EXPECT_STREQ(rig.last<Statustext>()->text.data(), "IGN MISSION_ITEM: No transfer");
+}
+
 TEST_F(PlanService, FloatDegreesComeBackUnchanged) {
     const std::array<float, 6> degrees{47.397742f, -33.856784f, 1.0000001f, 89.99999f, -47.39774f, not_given};
     announce(static_cast<std::uint16_t>(degrees.size()));
@@ -764,7 +794,50 @@ TEST_F(ArduPilotPlanService, ReturnsHomeAsItemZero) {
     EXPECT_NEAR(item->y, 85455940, 100);
     EXPECT_NEAR(item->z, 489.4, 1);
     request(1);
-    EXPECT_EQ(rig.last<MissionItemInt>()->frame, MAV_FRAME_GLOBAL_RELATIVE_ALT_INT) << "as it was uploaded";
+    EXPECT_EQ(rig.last<MissionItemInt>()->frame, MAV_FRAME_GLOBAL_RELATIVE_ALT) << "the variant of MISSION_ITEM";
+}
+
+// ArduPilot asks by MISSION_REQUEST only, whatever the client answers, and repeats that once a second for 8 s.
+TEST_F(ArduPilotPlanService, AsksByMissionRequest) {
+    announce(3);
+    rig.send(MissionAck{.target_system = 1, .target_component = 1, .type = MAV_MISSION_UNSUPPORTED});
+    rig.send(waypoint(0));
+    rig.send(MissionItem{.target_system = 1,
+                         .target_component = 1,
+                         .seq = 1,
+                         .frame = MAV_FRAME_GLOBAL_RELATIVE_ALT,
+                         .command = MAV_CMD_NAV_WAYPOINT,
+                         .x = 47.5f,
+                         .y = 8.5f,
+                         .z = 10});
+    EXPECT_THAT(rig.all<MissionRequest>(),
+                ElementsAre(testing::Field(&MissionRequest::seq, 0), testing::Field(&MissionRequest::seq, 1),
+                            testing::Field(&MissionRequest::seq, 2)));
+    EXPECT_FALSE(rig.last<MissionRequestInt>());
+
+    rig.forget();
+    rig.run(3.5);
+    EXPECT_EQ(rig.all<MissionRequest>().size(), 3u);
+    EXPECT_EQ(last_result(), 255);
+    rig.run(5.0);
+    EXPECT_EQ(last_result(), MAV_MISSION_OPERATION_CANCELLED);
+}
+
+// DroneKit waits for it after each download of a mission.
+TEST_F(ArduPilotPlanService, ReturnsHomeWithoutAMission) {
+    EXPECT_EQ(count(), 0);
+    rig.send(MissionRequest{.target_system = 1, .target_component = 1, .seq = 0});
+    const auto item = rig.last<MissionItem>();
+    ASSERT_TRUE(item);
+    EXPECT_NEAR(item->x, 47.397742, 1e-5);
+    EXPECT_NEAR(item->y, 8.545594, 1e-5);
+    EXPECT_NEAR(item->z, 489.4, 1);
+    request(0);
+    EXPECT_NEAR(rig.last<MissionItemInt>()->x, 473977420, 100);
+    request(1);
+    EXPECT_EQ(last_result(), MAV_MISSION_INVALID_SEQUENCE);
+    request(0, MAV_MISSION_TYPE_RALLY);
+    EXPECT_EQ(last_result(), MAV_MISSION_INVALID_SEQUENCE);
 }
 
 TEST_F(ArduPilotPlanService, ReplacesAPartOfThePlan) {
@@ -777,8 +850,8 @@ TEST_F(ArduPilotPlanService, ReplacesAPartOfThePlan) {
     };
     rig.forget();
     write(2, 2);
-    ASSERT_TRUE(rig.last<MissionRequestInt>());
-    EXPECT_EQ(rig.last<MissionRequestInt>()->seq, 2);
+    ASSERT_TRUE(rig.last<MissionRequest>());
+    EXPECT_EQ(rig.last<MissionRequest>()->seq, 2);
     rig.send(waypoint(2, 222));
     EXPECT_EQ(last_result(), MAV_MISSION_ACCEPTED);
     EXPECT_EQ(count(), 4);
