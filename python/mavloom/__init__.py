@@ -7,8 +7,10 @@
     with mavloom.RingReader("px4") as ring: print(ring.read(timeout=1.0))
 """
 import atexit as _atexit
+import sys as _sys
+import typing as _typing
 
-from . import _errors, _signatures, enums, messages
+from . import _errors, _hints, _signatures, enums, messages
 from ._columns import Columns, columns, tables
 from ._core import (Dialect, FieldInfo, Header, LinkRecorder, LinkStats, Message, MessageInfo, Parser, Record,
                     RecordBatch, Recording, RecordingStats, RecordingWriter, RingClaim, RingReader, RingWriter,
@@ -28,6 +30,11 @@ __version__ = version()
 read = Recording
 write = RecordingWriter
 _atexit.register(stop_all)
+
+if not _typing.TYPE_CHECKING:
+    def __getattr__(name):
+        raise AttributeError(_hints.with_hint(f"module 'mavloom' has no attribute '{name}'", name, _hints.MODULE),
+                             name=name, obj=_sys.modules[__name__])
 
 __all__ = [
     "AsyncVehicle", "ClosedError", "Columns", "CommandError", "Dialect", "Error", "FieldInfo", "Header", "InputError",

@@ -8,7 +8,7 @@ import time
 from collections.abc import AsyncIterator, Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, TypeVar, overload
 
-from . import _silence, _views
+from . import _hints, _silence, _views
 from ._core import Dialect, LinkRecorder, LinkStats, Message, Port, RingWriter, Subscription, is_vehicle
 from ._errors import ClosedError, UsageError
 from ._sends import Calls, Sends
@@ -234,6 +234,10 @@ class Link(Sends):
 
     def __exit__(self, *args: object) -> None:
         self.close()
+
+    if not TYPE_CHECKING:
+        def __getattr__(self, name: str) -> None:
+            raise _hints.no_attribute(self, name, _hints.LINK)
 
     def __repr__(self) -> str:
         return _views.link_text(self)

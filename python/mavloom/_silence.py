@@ -17,7 +17,7 @@ MOST_NAMED = 5
 
 
 def reason(link: Link, system: int = 0) -> str:
-    """What is wrong with the link, or what was heard instead of the vehicle; `system` 0: of any vehicle."""
+    """Describes the fault of the link, or who was heard instead of the vehicle. `system` 0 stands for any vehicle."""
     stats = link.stats
     if stats.hints:
         return "; ".join(stats.hints)

@@ -5,12 +5,13 @@ Each class is created at its first use. enums.pyi lists them for editors.
 """
 from . import _enums
 from ._core import Dialect
+from ._hints import near
 
 
 def __getattr__(name):
     dialect = Dialect()
     if name not in dialect.enum_names:
-        raise AttributeError(f"no enum {name} in the built-in definitions")
+        raise AttributeError(f"no enum {name} in the built-in definitions{near(name, dialect.enum_names)}")
     return _enums.make(dialect, name)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""pymavlink's own module mavparm, sets of parameters and their files. It works on the connections of mavloom.mavutil."""
+"""pymavlink's own module mavparm, sets of parameters in files. It works on the connections of mavloom.mavutil."""
 import sys
 from typing import TYPE_CHECKING, Any
 

@@ -8,6 +8,7 @@ Every message is an instance of class Message. isinstance() with one of these cl
 works for messages of any dialect.
 """
 from ._core import Dialect, Message
+from ._hints import near
 
 
 class _Kind(type):
@@ -16,8 +17,9 @@ class _Kind(type):
 
 
 def __getattr__(name):
-    if name.startswith("_") or name not in Dialect():
-        raise AttributeError(f"no message {name} in the built-in definitions")
+    dialect = Dialect()
+    if name.startswith("_") or name not in dialect:
+        raise AttributeError(f"no message {name} in the built-in definitions{near(name, dialect.message_names)}")
     return globals().setdefault(name, _Kind(name, (), {"__module__": __name__}))
 
 

@@ -20,7 +20,7 @@ namespace mavloom::python {
 [[nodiscard]] std::optional<Nanoseconds> timeout_of(const nb::object& given);
 // Returns how long recv_match waits: as `timeout_of`, or 0 if it polls. Without `blocking`, it waits if a time-out is
 // given.
-[[nodiscard]] std::optional<Nanoseconds> match_timeout(std::optional<bool> blocking, const nb::object& timeout);
+[[nodiscard]] std::optional<Nanoseconds> match_timeout(const nb::object& blocking, const nb::object& timeout);
 // Returns the deadline of a wait that begins now.
 [[nodiscard]] MonoTime deadline_after(std::optional<Nanoseconds> timeout);
 [[nodiscard]] inline MonoTime deadline_after(const nb::object& timeout) { return deadline_after(timeout_of(timeout)); }

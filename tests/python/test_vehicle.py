@@ -454,7 +454,8 @@ def test_the_home_of_an_ardupilot_is_no_item_of_its_mission(peer):
 
 def test_items_as_mappings_and_messages(peer):
     dialect = mavloom.Dialect()
-    items = [{"command": 22, "z": 10.0}, dialect.message("MISSION_ITEM_INT", command=16, x=1, y=2, z=3, frame=6),
+    items = [{"command": "NAV_TAKEOFF", "z": 10.0},
+             dialect.message("MISSION_ITEM_INT", command=16, x=1, y=2, z=3, frame=6),
              dialect.message("MISSION_ITEM", command=16, x=47.5, y=8.25, z=3, frame=3),
              mavutil.mavlink.MAVLink_mission_item_int_message(1, 1, 0, 6, 16, 0, 1, 0, 0, 0, 0, 4, 5, 6)]
     with flown(peer, px4=True) as (vehicle, stub):

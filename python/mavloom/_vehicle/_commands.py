@@ -14,6 +14,7 @@ from .. import _modes, enums
 from .._core import Message
 from .._enums import entry_name
 from .._errors import CommandError, UsageError
+from .._hints import near
 from ._exchange import Peer, Protocol, wait_until
 from ._texts import Texts
 from ._turns import exclusive
@@ -45,7 +46,8 @@ def number_of(command: int | str) -> int:
     for name in (command, f"MAV_CMD_{command}"):
         if name in members:
             return int(members[name])
-    raise UsageError(f"unknown command {command!r}; see mavloom.enums.MAV_CMD")
+    hint = near(str(command).removeprefix("MAV_CMD_"), [name.removeprefix("MAV_CMD_") for name in members])
+    raise UsageError(f"unknown command {command!r}{hint or '; see mavloom.enums.MAV_CMD'}")
 
 
 def checked_number(what: str, value: float) -> float:

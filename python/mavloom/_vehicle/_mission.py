@@ -128,6 +128,8 @@ def answer_of(peer: Peer, names: tuple[str, ...], kind: int, deadline: float) ->
 
 def upload(peer: Peer, items: Iterable[MissionItem | Message | Mapping[str, Any]], kind: int) -> Protocol[None]:
     """Replaces the mission of the vehicle. Raises MissionError if the vehicle refuses it."""
+    if not isinstance(items, Iterable):
+        raise UsageError(f"upload() takes a list of items, not {items!r}")
     return transfer(peer, items_sent(peer, checked(peer, items, kind), kind))
 
 
@@ -150,8 +152,12 @@ def renumbered(items: list[MissionItem], by: int) -> list[MissionItem]:
 
 
 def is_jump(item: MissionItem) -> bool:
-    """Whether an item is a DO_JUMP. Its command may be a number or a name."""
-    return (number_of(item.command) if isinstance(item.command, str) else item.command) == DO_JUMP
+    return item.command == DO_JUMP
+
+
+def with_number(item: MissionItem) -> MissionItem:
+    """The item with the number of its command, which may be a name."""
+    return replace(item, command=number_of(item.command)) if isinstance(item.command, str) else item
 
 
 def items_sent(peer: Peer, wanted: list[MissionItem], kind: int) -> Protocol[None]:
@@ -183,7 +189,7 @@ def items_sent(peer: Peer, wanted: list[MissionItem], kind: int) -> Protocol[Non
 def checked(peer: Peer, given: Iterable[MissionItem | Message | Mapping[str, Any]], kind: int) -> list[MissionItem]:
     """Returns the items. Raises UsageError, before anything is sent, if one has a value that cannot be sent."""
     check_kind(peer, kind)
-    items = [item_of(item) for item in given]
+    items = [with_number(item_of(item)) for item in given]
     if len(items) > MOST_ITEMS:
         raise UsageError(f"a mission has at most {MOST_ITEMS} items, not {len(items)}")
     for number, item in enumerate(items):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, MutableMapping
 from typing import TYPE_CHECKING, Any
 
-from .. import _modes
+from .. import _hints, _modes
 from .._core import Message
 from .._errors import ClosedError, ParameterError
 from . import _commands, _mission, _params
@@ -62,6 +62,15 @@ class _Common:
         if beat["autopilot"] == _modes.AUTOPILOT_PX4:
             return sorted(_modes.PX4)
         return sorted(_modes.ardupilot_modes(beat["type"]) or ())
+
+    if not TYPE_CHECKING:
+        def __getattr__(self, name: str) -> None:
+            raise _hints.no_attribute(self, name, _hints.OF_VEHICLE)
+
+        def __setattr__(self, name: str, value: object) -> None:
+            if name in _hints.SET_ON_VEHICLE:
+                raise AttributeError(_hints.with_hint(f"{name} cannot be set", name, _hints.SET_ON_VEHICLE))
+            object.__setattr__(self, name, value)
 
     def _state(self) -> str:
         try:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 from .. import _modes
 from .._core import MavutilState, MavutilTypes, hides_extensions, is_vehicle
 from .._errors import UsageError
+from .._hints import near
 from . import _current
 from ._conditions import evaluate_condition
 from ._messages import MAVLink_message, as_bytes
@@ -163,7 +164,9 @@ class Connection:
         """
         types = self._types_of(type)
         if types is not None and blocking and timeout is None and not types.has_any and not self._has_ended():
-            raise UsageError(f"type={type!r}: no such message, so this call would wait forever")
+            names = [type] if isinstance(type, str) else list(type or ())
+            hint = near(names[0], self.mav._dialect.message_names) if names else ""
+            raise UsageError(f"type={type!r}: no such message, so this call would wait forever{hint}")
         wait = None if timeout is None else wait_of(timeout)
         blocking = blocking and wait != 0
         end = time.monotonic() + wait if blocking and wait is not None else None

@@ -10,6 +10,7 @@ from typing import Any
 from .. import _core
 from .._core import Dialect
 from .._errors import UsageError
+from .._hints import near
 from . import _messages, _protocol
 from ._messages import Classes, MAVLink_message, as_bytes
 
@@ -136,12 +137,6 @@ class MavlinkModule(types.ModuleType):
     def __dir__(self) -> list[str]:
         classes = (f"MAVLink_{name.lower()}_message" for name in self.dialect.message_names)
         return sorted({*super().__dir__(), *self._constants, *classes, "MAVLink", "enums", "mavlink_map"})
-
-
-def near(name: str, names: Any) -> str:
-    import difflib
-    found = difflib.get_close_matches(name, names, 1)
-    return f"; did you mean {found[0]}?" if found else ""
 
 
 class Enums(dict[str, Enum]):

@@ -74,7 +74,7 @@ PyObject* Subscription::iterate() {
 
 nb::object Subscription::recv(const nb::object& timeout) { return or_closed({}, nb::none(), deadline_after(timeout)); }
 
-nb::object Subscription::recv_match(const nb::object& condition, const nb::object& type, std::optional<bool> blocking,
+nb::object Subscription::recv_match(const nb::object& condition, const nb::object& type, const nb::object& blocking,
                                     const nb::object& timeout, const OptionalInteger& system,
                                     const OptionalInteger& component) {
     check_condition(condition);

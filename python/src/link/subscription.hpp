@@ -35,7 +35,7 @@ public:
     // Returns a new reference, or null at the end (iteration.hpp).
     PyObject* iterate();
     nb::object recv(const nb::object& timeout);
-    nb::object recv_match(const nb::object& condition, const nb::object& type, std::optional<bool> blocking,
+    nb::object recv_match(const nb::object& condition, const nb::object& type, const nb::object& blocking,
                           const nb::object& timeout, const OptionalInteger& system, const OptionalInteger& component);
 
     // Raises UsageError if this link reads `ring`: `pump` would write the ring's own records into it again.

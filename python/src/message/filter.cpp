@@ -12,12 +12,14 @@
 namespace mavloom::python {
 namespace {
 
+[[noreturn]] void raise_no_type(const nb::handle& type) {
+    PyErr_Format(PyExc_TypeError, "type= takes names of messages, not %R", type.ptr());
+    throw nb::python_error();
+}
+
 MessageId id_of(const dialect::Dialect& dialect, const nb::handle& type) {
     const nb::object name = PyType_Check(type.ptr()) ? nb::object(type.attr("__name__")) : nb::borrow(type);
-    if (!PyUnicode_Check(name.ptr())) {
-        PyErr_Format(PyExc_TypeError, "type= takes names of messages, not %R", type.ptr());
-        throw nb::python_error();
-    }
+    if (!PyUnicode_Check(name.ptr())) raise_no_type(type);
     return value_or_raise(dialect.message(nb::cast<std::string>(name)))->id();
 }
 
@@ -31,6 +33,7 @@ feed::Filter make_filter(const dialect::Dialect& dialect, const nb::object& type
     if (PyUnicode_Check(type.ptr()) || PyType_Check(type.ptr())) {
         ids.push_back(id_of(dialect, type));
     } else {
+        if (PyObject_HasAttrString(type.ptr(), "__iter__") == 0) raise_no_type(type);
         for (const nb::handle one : nb::iter(type)) ids.push_back(id_of(dialect, one));
     }
     return filter;
@@ -55,7 +58,10 @@ void check_instance(const dialect::Message& message, const feed::Instance& insta
 
 void check_condition(const nb::object& condition) {
     if (condition.is_none() || PyCallable_Check(condition.ptr()) != 0) return;
-    PyErr_SetString(PyExc_TypeError, "condition= takes a callable that is given the message (text is never evaluated)");
+    PyErr_Format(PyExc_TypeError,
+                 "condition= takes a callable that is given the message, not %R (text is never evaluated); type= takes "
+                 "the names of messages",
+                 condition.ptr());
     throw nb::python_error();
 }
 

@@ -41,7 +41,7 @@ public:
     // Returns a new reference, or null at the end.
     PyObject* iterate() { return next_match({}, {}).release().ptr(); }
 
-    nb::object recv_match(const nb::object& condition, const nb::object& type, std::optional<bool> blocking,
+    nb::object recv_match(const nb::object& condition, const nb::object& type, const nb::object& blocking,
                           const nb::object& timeout, const OptionalInteger& system, const OptionalInteger& component) {
         check_condition(condition);
         const auto filter = make_filter(origin_->dialect(), type, system, component);
@@ -232,7 +232,7 @@ void bind_recording(nb::module_& module) {
         .def(
             "recv",
             [](Recording& r, const nb::object& timeout) {
-                return r.recv_match(nb::none(), nb::none(), true, timeout, {}, {});
+                return r.recv_match(nb::none(), nb::none(), nb::bool_(true), timeout, {}, {});
             },
             nb::arg("timeout") = nb::none(), nb::sig("def recv(self, timeout: float | None = None) -> Message | None"),
             "Returns the next message, or None at the end, or if a pipe has none for `timeout` seconds.")

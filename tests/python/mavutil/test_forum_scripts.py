@@ -30,6 +30,16 @@ changed {name} from {after:.6f} to {before:.6f}
 Loaded 1 parameters from FILE (changed 1)
 {name} True
 """
+DRONEKIT = """position
+mode GUIDED
+armed
+took off
+reached the target
+flew east: True True
+mode RTL
+landed
+at home: True True
+"""
 PLOT = """50 points, True True
 lat 47.398 lon 8.546 True
 """
@@ -96,7 +106,7 @@ def dump(name, before):
 RUNS = [("mission_fly", "ardupilot", "", MISSION),
         ("param_dump", "ardupilot", "WPNAV_SPEED OUT", dump("WPNAV_SPEED", 1000)),
         ("param_dump", "px4", "MPC_XY_VEL_MAX OUT", dump("MPC_XY_VEL_MAX", 12)),
-        ("gps_plot", "px4", "OUT", PLOT),
+        ("dronekit_like", "ardupilot", "", DRONEKIT), ("gps_plot", "px4", "OUT", PLOT),
         ("intervals", "px4", "", INTERVALS), ("intervals", "ardupilot", "", INTERVALS),
         ("ftp_files", "ardupilot", "/APM OUT", FILES), ("rc_fly", "ardupilot", "", STICKS),
         ("modes_all", "ardupilot", f"{COPTER_MODES} NOPE", modes("MAV_AUTOPILOT_ARDUPILOTMEGA", COPTER_MODES)),

@@ -8,7 +8,8 @@ from pymavlink import mavutil
 master = mavutil.mavlink_connection(sys.argv[1])
 master.wait_heartbeat()
 mapping = master.mode_mapping()
-print(len(mapping) > 8, "autopilot", mavutil.mavlink.enums["MAV_AUTOPILOT"][master.field("HEARTBEAT", "autopilot")].name)
+autopilot = mavutil.mavlink.enums["MAV_AUTOPILOT"][master.field("HEARTBEAT", "autopilot")]
+print(len(mapping) > 8, "autopilot", autopilot.name)
 
 
 def wait_mode(name):
