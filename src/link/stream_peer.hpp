@@ -16,8 +16,9 @@
 namespace mavloom::link::detail {
 
 // Reads once per turn, and writes the queue in as few calls as possible. Bytes that the kernel does not accept stay in
-// the queue. `Self` is the derived class (CRTP). Its function `wants(event)` decides whether an event of the parser
-// goes to the handler.
+// the queue. `Self` is the derived class (CRTP). Its function `accepts(bytes)` returns false if it closed the stream
+// because of the bytes read, which are then not parsed. `wants(event)` decides whether an event of the parser goes to
+// the handler.
 template <class Self, class Stream>
 class StreamPeer : public Link, public Outlet, public net::IoHandler, public Ticker {
 public:
@@ -110,6 +111,7 @@ private:
             return;
         }
         last_heard = core_.now();
+        if (!static_cast<Self*>(this)->accepts(room.first(*count))) return;
         budget_.spend(*count, *count, [&] { parser_.feed(room.first(*count), core_.now(), sink(wall_now())); });
         counters.implausible_unknown.set(parser_.counters().implausible_unknown.value());
         if (parser_.deadline()) core_.tickers.keep(*this);

@@ -452,6 +452,15 @@ def test_row_22_the_loss_of_those_that_went_stays(peer):
         assert sum(s.lost for s in link.stats.sources) == 6
 
 
+def test_a_web_page_reaches_no_tcpin(peer):
+    frame = packer(peer).pack(peer.MAVLink_heartbeat_message(2, 12, 0, 0, 4, 3))
+    with mavloom.connect("tcpin://127.0.0.1:0") as link:
+        with socket.create_connection(("127.0.0.1", link.port)) as page:
+            page.sendall(b"POST / HTTP/1.1\r\nOrigin: https://evil.example\r\n\r\n" + frame)
+            until(lambda: link.stats.http_refused == 1)
+        assert link.stats.frames_in == 0
+
+
 def another_definition(folder, field='type="float" name="level"'):
     (folder / "other.xml").write_text(
         f'<mavlink><messages><message id="61000" name="SECURE_PAYLOAD"><field {field}>x</field></message></messages>'

@@ -79,6 +79,7 @@ struct EndpointCounters {
     Counter peers_limited;    // new peers turned away when they tried again, because too many tried again
     Counter peers_evicted;    // peers that were heard once or were idle, evicted for new ones
     Counter peers_displaced;  // active peers that were evicted for new ones (docs/guide/queues.md)
+    Counter http_refused;     // tcpin: clients that sent an HTTP request, and were disconnected
     // Datagrams that the kernel rejected, or for which ICMP reported a closed port.
     Counter send_errors;
     Counter reconnects;
@@ -94,7 +95,7 @@ struct EndpointCounter {
     std::string_view name;
     Counter EndpointCounters::*word;
 };
-inline constexpr std::array<EndpointCounter, 10> endpoint_counters{{
+inline constexpr std::array<EndpointCounter, 11> endpoint_counters{{
     {"kernel_drop", &EndpointCounters::kernel_drop},
     {"wrong_peer", &EndpointCounters::wrong_peer},
     {"bad_source", &EndpointCounters::bad_source},
@@ -103,6 +104,7 @@ inline constexpr std::array<EndpointCounter, 10> endpoint_counters{{
     {"peers_limited", &EndpointCounters::peers_limited},
     {"peers_evicted", &EndpointCounters::peers_evicted},
     {"peers_displaced", &EndpointCounters::peers_displaced},
+    {"http_refused", &EndpointCounters::http_refused},
     {"send_errors", &EndpointCounters::send_errors},
     {"reconnects", &EndpointCounters::reconnects},
 }};

@@ -39,6 +39,7 @@ public:
     [[nodiscard]] bool blocked() const override { return pace_.valid() || StreamPeer::blocked(); }
 
     // While the endpoint searches for the baud rate, the handler gets no frames.
+    [[nodiscard]] static bool accepts(ByteView) noexcept { return true; }
     [[nodiscard]] bool wants(const wire::ParseEvent& event) {
         const bool is_frame = event.kind == wire::ParseEvent::Kind::frame;
         if (is_frame && event.info != nullptr) owner_.on_good_frame();

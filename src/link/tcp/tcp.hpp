@@ -3,9 +3,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "link/stream_peer.hpp"
+#include "link/tcp/http_opening.hpp"
 #include "mavloom/net/tcp.hpp"
 
 namespace mavloom::link::detail {
@@ -17,6 +19,8 @@ public:
     virtual ~TcpOwner() = default;
     // Called when the stream has ended. The peer is detached and may be passed to Core::bury.
     virtual void on_closed(TcpPeer& peer, std::string_view why) = 0;
+    // Called when a client's first bytes are an HTTP request. Closes the client.
+    virtual void on_http(TcpPeer&) {}
 };
 
 // A far side is never disconnected because it reads slowly.
@@ -43,6 +47,18 @@ public:
     MonoTime connected_at{};
     net::Address host;  // of a client of a tcpin: Address::host_part()
 
+    // Watches for an HTTP request at the start of the stream. Call it for the clients of a tcpin.
+    void refuse_http() noexcept { opening_ = HttpOpening(); }
+    [[nodiscard]] bool accepts(ByteView bytes) {
+        if (!opening_) [[likely]]
+            return true;
+        const auto verdict = opening_->note(bytes);
+        if (verdict != HttpOpening::Verdict::undecided) opening_.reset();
+        if (verdict != HttpOpening::Verdict::http) return true;
+        counters.junk_bytes.add(bytes.size());
+        owner_.on_http(*this);
+        return false;
+    }
     [[nodiscard]] static bool wants(const wire::ParseEvent&) noexcept { return true; }
 
 private:
@@ -51,6 +67,7 @@ private:
     }
 
     TcpOwner& owner_;
+    std::optional<HttpOpening> opening_;
 };
 
 [[nodiscard]] SetupResult<std::unique_ptr<OpenEndpoint>> open_tcpin(Opening opening);

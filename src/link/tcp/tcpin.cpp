@@ -67,6 +67,7 @@ public:
         crowds_.reset();
         peers_.remove(peer, why);
     }
+    void on_http(TcpPeer& peer) override;
     void on_timer(MonoTime now) override;
 
 private:
@@ -86,7 +87,7 @@ private:
     std::size_t looks_at_peers_ = 0;  // in this turn
     net::TimerId pause_, expiry_;
     Retry retry_;  // to look the name up again
-    bool reported_full_ = false;
+    bool reported_full_ = false, reported_http_ = false;
 };
 
 void Listening::on_io(net::IoEvents) { owner_.accept_from(listener_); }
@@ -143,6 +144,7 @@ void TcpIn::admit(net::TcpStream stream) {
     peer->name = fmt::format("{}#{}", info.label(), stream.remote().text());
     peer->connected_at = core_.now();
     peer->host = stream.remote().host_part();
+    peer->refuse_http();
     if (peer->attach(std::move(stream))) peers_.add(std::move(peer));
 }
 
@@ -163,6 +165,19 @@ bool TcpIn::make_room(const net::Address& newcomer) {
     counters.peers_evicted.add();
     first->close("max_peers is reached, and this client was silent longest");
     return true;
+}
+
+// A browser sends such a request for any web page that it shows, and the rest of the request may be MAVLink.
+void TcpIn::on_http(TcpPeer& peer) {
+    counters.http_refused.add();
+    if (!std::exchange(reported_http_, true)) {
+        core_.events.notice(info.id,
+                            fmt::format("{}: {} sent an HTTP request, as a web page in a browser would, and was "
+                                        "disconnected; this port takes MAVLink only. Further such clients are counted "
+                                        "(http_refused)",
+                                        info.endpoint.label(), peer.stream().remote().text()));
+    }
+    peer.close("HTTP request");
 }
 
 void TcpIn::pause() {

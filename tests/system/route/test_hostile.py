@@ -2,6 +2,7 @@
 """Attacks without a key, on a running router. docs/design/security.md lists them; the rules themselves are tested in
 units."""
 import contextlib
+import http.client
 import itertools
 import pathlib
 import re
@@ -101,6 +102,29 @@ def test_a_flood_of_peers_that_repeat_takes_nothing_from_active_peers(pair):
     assert count - arrived <= endpoint["kernel_drop"]
     # 512 at once, then 50 a second; and of those that repeat, 100 at once and 100 a second.
     assert endpoint["peers_evicted"] < 512 + 100 + 10 * (50 + 100)
+
+
+def post_as_a_web_page(port, body):
+    """Like a browser for `fetch("http://127.0.0.1:PORT/", {method: "POST", mode: "no-cors", body})`."""
+    page = http.client.HTTPConnection("127.0.0.1", port, timeout=harness.DEFAULT_TIMEOUT_S)
+    with contextlib.closing(page), pytest.raises((http.client.HTTPException, OSError)):
+        page.request("POST", "/", body, {"Origin": "https://evil.example", "Content-Type": "text/plain"})
+        page.getresponse()
+
+
+def test_a_web_page_commands_no_vehicle(spawn):
+    vehicle_port, client_port = routers.udp_port(), routers.tcp_port()
+    router = Router(spawn, f"udpin://127.0.0.1:{vehicle_port}", f"tcpin://127.0.0.1:{client_port}")
+    with UdpEnd(("127.0.0.1", vehicle_port)) as vehicle:
+        vehicle.send(heartbeat(VEHICLE))
+        router.wait_links(1)
+        for _ in range(2):
+            post_as_a_web_page(client_port, command(STATION, VEHICLE))
+        harness.wait_for(lambda: sum(e["http_refused"] for e in router.stats("endpoint")) == 2, what="both refused")
+        with routers.tcp_client(client_port) as station:
+            station.send(order := command(STATION, VEHICLE))
+            assert vehicle.until(order) == []
+    assert router.process.stderr.count("sent an HTTP request") == 1
 
 
 def test_invented_ids_on_many_links_starve_nobody_afterwards(pair):

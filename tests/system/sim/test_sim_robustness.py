@@ -209,6 +209,18 @@ def test_b88_the_end_leaves_no_partial_frames(sim, udp_socket):
     assert sum(map(len, parts)) == len(data) and len(parts[-1]) == frames.frame_length(parts[-1], 0)
 
 
+def test_a_web_page_arms_no_simulated_vehicle(sim):
+    simulator = sim(listen=("tcpin://127.0.0.1:0",))
+    arm = mavlink.MAVLink_command_long_message(1, 1, mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 0, 1, 0, 0, 0, 0, 0, 0)
+    request = b"POST / HTTP/1.1\r\nOrigin: https://evil.example\r\n\r\n" + arm.pack(mavlink.MAVLink(None, 255, 190))
+    with socket.create_connection(("127.0.0.1", simulator.port), timeout=harness.DEFAULT_TIMEOUT_S) as page:
+        page.sendall(request)
+        with contextlib.suppress(ConnectionResetError):
+            while page.recv(65536):
+                pass
+    simulator.process.wait_output("sent an HTTP request")
+
+
 def telemetry_of(program, *options):
     """{(message, time): payload} of a short flight."""
     with Station.listening(beats=False) as station:

@@ -234,6 +234,59 @@ TEST_F(LinksTcp, AStormOfConnectionsKeepsNoOtherAddressOut) {
     EXPECT_THAT(links, Contains(::testing::Field(&LinkInfo::name, HasSubstr("#127.0.0.2:"))));
 }
 
+// Web pages: a browser sends any bytes that a page wants to any local port, but behind an HTTP request line. Methods of
+// RFC 9110 and 5789; PRI opens HTTP/2 (RFC 9113).
+struct LinksTcpHttp : LinksTcp {
+    static Bytes text(std::string_view ascii) { return {ascii.begin(), ascii.end()}; }
+    [[nodiscard]] const EndpointCounters& sums() const { return *node.info(in).counters; }
+    [[nodiscard]] bool is_refused(std::uint64_t count = 1) {
+        return until([&] { return sums().http_refused.value() == count; }, node) && node.links->links().empty();
+    }
+};
+
+TEST_F(LinksTcpHttp, ARequestIsRefusedAndNoFrameBehindItHeard) {
+    std::uint64_t count = 0;
+    for (const auto method : {"GET", "POST", "PUT", "HEAD", "OPTIONS", "PATCH", "DELETE", "CONNECT", "TRACE", "PRI"}) {
+        const auto page = connect();
+        page.write(text(fmt::format("{} / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n", method)) + heartbeat(1));
+        ASSERT_TRUE(is_refused(++count)) << method;
+    }
+    EXPECT_THAT(node.recorder.frames, SizeIs(0));
+    EXPECT_GT(sums().gone.junk_bytes.value(), 0u);
+}
+
+TEST_F(LinksTcpHttp, ARequestThatComesByteByByteIsRefused) {
+    const auto page = connect();
+    for (const std::uint8_t byte : text("POST ")) {
+        page.write({byte});
+        node.poll();
+    }
+    EXPECT_TRUE(is_refused());
+}
+
+TEST_F(LinksTcpHttp, IsReportedOnce) {
+    for (std::uint64_t count = 1; count <= 3; ++count) {
+        const auto page = connect();
+        page.write(text("GET / HTTP/1.1\r\n"));
+        ASSERT_TRUE(is_refused(count));
+    }
+    const auto is_about_http = [](const std::string& notice) { return notice.find("HTTP") != std::string::npos; };
+    EXPECT_EQ(std::ranges::count_if(node.recorder.notices, is_about_http), 1);
+}
+
+// A serial bridge may begin anywhere in a frame or in the text that a vehicle prints when it starts.
+TEST_F(LinksTcpHttp, OtherJunkBeforeFramesIsNoRequest) {
+    for (const auto junk : {"G", "GET", "GETTING ", "POS", "NSH> ", "PUTGET / ", " GET / ", "get / "}) {
+        const auto bridge = connect();
+        node.recorder.frames.clear();
+        bridge.write(text(junk));
+        node.poll();
+        bridge.write(heartbeat(1) + text("GET / HTTP/1.1\r\n") + heartbeat(2));
+        ASSERT_TRUE(until([&] { return node.recorder.frames.size() == 2; }, node)) << junk;
+    }
+    EXPECT_EQ(sums().http_refused.value(), 0u);
+}
+
 TEST(LinksTcpOut, WaitsForAListenerThatComesLater) {
     std::uint16_t port;
     {
