@@ -6,7 +6,10 @@
 #include <utility>
 
 #include "mavloom/base/secret_hash.hpp"
+#include "mavloom/msg/command_int.hpp"
+#include "mavloom/msg/command_long.hpp"
 #include "mavloom/msg/heartbeat.hpp"
+#include "mavloom/msg/set_mode.hpp"
 
 namespace mavloom::router {
 
@@ -84,8 +87,26 @@ void Forwarder::deliver(const link::RxFrame& rx, const route::Decision& decision
 // Signs only frames whose own signature was verified, so that the router never vouches for unverified traffic. A new
 // signature on a copy would hide from its receiver that it is one. Verified frames also leave first.
 void Forwarder::send(const link::RxFrame& rx, std::span<const LinkId> links, bool is_verified) {
-    if (is_verified) links_.send(links, rx.frame);
-    else not_signed_.add(links_.send_unverified(links, rx.frame));
+    if (is_verified) return void(links_.send(links, rx.frame));
+    const std::size_t not_signed = links_.send_unverified(links, rx.frame);
+    if (not_signed != 0) [[unlikely]]
+        note_not_signed(rx, not_signed);
+}
+
+// Only a command without effect is worth a warning. Telemetry is useful unsigned, too.
+static bool is_command(MessageId id) {
+    return id == msg::CommandLong::id || id == msg::CommandInt::id || id == msg::SetMode::id;
+}
+
+void Forwarder::note_not_signed(const link::RxFrame& rx, std::size_t links) {
+    not_signed_.add(links);
+    if (has_warned_of_unsigned_ || !is_command(rx.frame.id()) || rx.frame.is_signed() || rx.is_repeated) return;
+    has_warned_of_unsigned_ = true;
+    warnings_.push_back(fmt::format(
+        "a command from {}/{} on {} went out unsigned on a link with sign=, because it arrived unverified; a vehicle "
+        "that requires signatures ignores it. Let the sender sign with the same key, and set verify=KEYFILE on the "
+        "endpoint where its frames arrive",
+        rx.frame.source().system.value, rx.frame.source().component.value, name_of(rx.link)));
 }
 
 // Ignores reboots shown by frames that teach no route: those from taps, those that the input filter drops, and signed
@@ -124,7 +145,7 @@ std::vector<std::string> Forwarder::look_after() {
         traffic_.forget_links_unless([&](LinkId link) { return links_.counters(link) != nullptr; });
         std::erase_if(down_, [&](const auto& link) { return links_.counters(link.first) == nullptr; });
     }
-    std::vector<std::string> warnings;
+    auto warnings = std::exchange(warnings_, {});
     const auto ids = engine_.duplicate_ids();
     for (const auto& id : ids.subspan(std::exchange(duplicate_ids_reported_, ids.size())))
         warnings.push_back(

@@ -58,7 +58,8 @@ public:
     // The verdicts on a link's frames, also while the link is down. Null for a link that is gone.
     [[nodiscard]] const route::LinkCounters* verdicts(LinkId link) const;
     // Call about once a second. Forgets the traffic and verdicts of links that are gone. Returns one warning for each
-    // newly found id that two senders use, and for each vehicle that was learned on a second link.
+    // newly found id that two senders use, for each vehicle that was learned on a second link, and for the first
+    // command that went out unsigned.
     [[nodiscard]] std::vector<std::string> look_after();
 
     [[nodiscard]] const route::Engine& engine() const noexcept { return engine_; }
@@ -69,6 +70,7 @@ public:
 
 private:
     void send(const link::RxFrame& rx, std::span<const LinkId> links, bool is_verified);
+    void note_not_signed(const link::RxFrame& rx, std::size_t links);
     void count_loss(const link::RxFrame& rx, const route::LinkPolicy& policy);
     bool send_own(LinkId link, const wire::FrameView& frame);
     [[nodiscard]] bool is_answered(LinkId link) const;
@@ -82,6 +84,8 @@ private:
     Explainer explainer_;
     std::vector<route::Explanation> why_;
     Counter not_signed_;
+    bool has_warned_of_unsigned_ = false;
+    std::vector<std::string> warnings_;  // for the next look_after()
     std::size_t duplicate_ids_reported_ = 0, route_conflicts_reported_ = 0;
     bool has_removed_link_ = false;  // `traffic_` and `down_` may have a link that is gone
 };

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "mavloom/endpoint/grammar.hpp"
 
@@ -46,9 +47,6 @@ std::string evidence(const link::EndpointInfo& info, const link::LinkCounters& l
             "{} datagrams came from an address other than {}: if the far side answers from another port, "
             "receive with udpin://",
             info.counters->wrong_peer.value(), endpoint::to_text(info.endpoint.address));
-    if (link.refused.value() != 0)
-        return fmt::format("{} frames were refused: no program listens at {}", link.refused.value(),
-                           endpoint::to_text(info.endpoint.address));
     if (link.junk_bytes.value() + link.crc_error.value() == 0) return {};
     const bool is_serial = info.endpoint.scheme == endpoint::Scheme::serial;
     return fmt::format("the received bytes are not MAVLink ({} bytes, {} damaged frames): {}", link.junk_bytes.value(),
@@ -71,7 +69,9 @@ std::vector<SilenceWatch::Silent> SilenceWatch::look(const CountersOf& counters_
     std::erase_if(watched_, [&](Watched& w) {
         const link::LinkCounters* const counters = counters_of(w.link);
         if (counters == nullptr || counters->frames_in.value() != 0) return true;
-        if (counters->frames_out.value() != 0) w.since = std::min(w.since, now);
+        const std::uint64_t refused = counters->refused.value();
+        const bool is_refused = std::exchange(w.refused, refused) != refused;
+        if (counters->frames_out.value() != 0) w.since = is_refused ? now : std::min(w.since, now);
         const bool is_silent = w.since != MonoTime::max() && now - w.since >= patience;
         if (is_silent) silent.push_back({w.link, w.endpoint});
         return is_silent;

@@ -6,6 +6,7 @@
 // Private to module router. One owner thread; time is a parameter.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -38,7 +39,10 @@ private:
     struct Watched {
         LinkId link;
         link::EndpointId endpoint;
-        MonoTime since = MonoTime::max();  // the first look() that found a frame sent
+        // The first look() that found a frame sent, and none refused since the look before it: the link reports a
+        // closed port itself.
+        MonoTime since = MonoTime::max();
+        std::uint64_t refused = 0;  // at the last look()
     };
     std::vector<Watched> watched_;
     std::vector<link::EndpointId> reported_;

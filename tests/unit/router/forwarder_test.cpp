@@ -191,6 +191,23 @@ TEST(Forwarder, SignsOnlyVerifiedFrames) {
     EXPECT_EQ(router.sut.not_signed(), 2u);
 }
 
+// They showed only as `not_signed` in the statistics.
+TEST(Forwarder, WarnsOnceOfCommandsThatGoOutUnsigned) {
+    ForwarderAtWork router;
+    router.link("udpin://127.0.0.1:1?verify=key&sign=key");
+    router.link("udpin://127.0.0.1:2");
+    router.links.signing = {1};
+    router.hears(1, attitude());
+    router.hears(2, attitude(gcs));
+    EXPECT_THAT(router.sut.look_after(), IsEmpty());
+
+    router.hears(2, command(vehicle));
+    EXPECT_THAT(router.sut.look_after(),
+                ElementsAre(AllOf(HasSubstr("command from 255/190 on two went out unsigned"), HasSubstr("verify="))));
+    router.hears(2, command(vehicle));
+    EXPECT_THAT(router.sut.look_after(), IsEmpty());
+}
+
 TEST(Forwarder, AnEchoIsNoLoss) {
     ForwarderAtWork router;
     router.link();

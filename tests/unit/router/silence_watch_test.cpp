@@ -50,6 +50,18 @@ TEST_F(Silence, OfALinkThatWasHeardOnceIsNone) {
     EXPECT_EQ(reports(silence_start + 3s, 60), 0u);
 }
 
+// The notice blamed a closed port although a program had been listening there for seconds.
+TEST_F(Silence, BeginsWhenTheFarSideNoLongerRefuses) {
+    sut.add(link, px4);
+    for (int second = 0; second < 20; ++second) {
+        counters.refused.add();
+        counters.frames_out.add();
+        EXPECT_EQ(reports(silence_start + second * 1s, 1), 0u) << second;
+    }
+    EXPECT_EQ(reports(silence_start + 20s, 4), 0u);
+    EXPECT_EQ(reports(silence_start + 24s, 1), 1u);
+}
+
 TEST_F(Silence, EndsWithItsLink) {
     sut.add(link, px4);
     counters.frames_out.add();
@@ -87,6 +99,9 @@ TEST(SilenceText, NamesWhatCameInstead) {
     foreign.bad_signature.add(3);
     EXPECT_THAT(text_of("serial:///dev/ttyACM0", junk), AllOf(HasSubstr("512 bytes"), HasSubstr("baud=auto")));
     EXPECT_THAT(text_of("udpout://127.0.0.1:1", foreign), HasSubstr("3 frames arrived without the signature"));
+    link::LinkCounters once_refused;
+    once_refused.refused.add(2);
+    EXPECT_THAT(text_of("udpout://127.0.0.1:1", once_refused), HasSubstr("does the far side listen on 127.0.0.1:1"));
     EXPECT_THAT(text_of("udpout://127.0.0.1:1", {}, 9), HasSubstr("9 datagrams came from an address other than"));
 }
 
