@@ -61,7 +61,7 @@ void Destinations::look_after_files(MonoTime now, const std::function<void(std::
     for (auto& file : files_) {
         auto removed = file.look_after(now);
         if (!removed) keep(tl::unexpected(std::move(removed.error())));
-        else if (!removed->empty()) on_notice(record::removal_notice(*removed));
+        else if (!removed->empty()) on_notice(record::removal_notice(*removed, file.segment_path()));
     }
 }
 

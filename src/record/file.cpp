@@ -50,8 +50,10 @@ File& File::operator=(File&& other) noexcept {
     return *this;
 }
 
-File::~File() {
-    if (fd_ >= 0) ::close(fd_);
+File::~File() { close(); }
+
+void File::close() noexcept {
+    if (fd_ >= 0) ::close(std::exchange(fd_, -1));
 }
 
 // Returns 0 or an errno value. A read would not do: a FIFO that no writer has opened yet reads as ended, but polls as

@@ -57,7 +57,7 @@ void Recorder::run() {
 SetupResult<void> Recorder::look_at_file() {
     auto removed = writer_.look_after(mono_now());
     if (!removed) return tl::unexpected(std::move(removed.error()));
-    if (!removed->empty()) notice_(fmt::format("{}: {}", label_, removal_notice(*removed)));
+    if (!removed->empty()) notice_(fmt::format("{}: {}", label_, removal_notice(*removed, writer_.segment_path())));
     return {};
 }
 

@@ -40,6 +40,11 @@ std::string name_of(WallTime time) {
                        utc.tm_hour, utc.tm_min, utc.tm_sec, ms % 1000);
 }
 
+bool is_taken(const fs::path& path) {
+    struct stat status {};
+    return ::lstat(path.c_str(), &status) == 0;
+}
+
 }  // namespace
 
 SetupResult<RotatingWriter> RotatingWriter::create(const fs::path& path, Rotation rotation) {
@@ -63,15 +68,20 @@ bool RotatingWriter::begins_segment(WallTime time, const wire::FrameView& frame)
     return rotation_.every != Nanoseconds{} && time > begin_ && time - begin_ >= rotation_.every;
 }
 
+// Without rotation, a file may have taken the path itself; the recording then continues beside it.
 fs::path RotatingWriter::free_name(WallTime time) const {
-    const auto stem = fmt::format("{}-{}", path_.stem().string(), name_of(time));
+    const auto stem = path_.stem().string() + (rotation_.rotates() ? "-" + name_of(time) : "");
     const auto extension = path_.extension().string();
     auto name = path_;
-    struct stat status {};
     name.replace_filename(stem + extension);
-    for (int n = 2; ::lstat(name.c_str(), &status) == 0; ++n)
-        name.replace_filename(fmt::format("{}_{}{}", stem, n, extension));
+    for (int n = 2; is_taken(name); ++n) name.replace_filename(fmt::format("{}_{}{}", stem, n, extension));
     return name;
+}
+
+SetupResult<TlogWriter> RotatingWriter::next_file(WallTime begin) const {
+    if (rotation_.rotates()) return TlogWriter::create_file(free_name(begin));
+    auto next = TlogWriter::create_file(path_);
+    return next || !is_taken(path_) ? std::move(next) : TlogWriter::create_file(free_name(begin));
 }
 
 SetupResult<void> RotatingWriter::end_segment() {
@@ -92,6 +102,7 @@ SetupResult<void> RotatingWriter::continue_in(TlogWriter next) {
 }
 
 SetupResult<fs::path> RotatingWriter::look_after(MonoTime now) {
+    if (!left_.empty()) return std::exchange(left_, {});
     constexpr std::chrono::milliseconds look_interval{500};
     if (now < look_due_) return {};
     look_due_ = now + look_interval;
@@ -103,14 +114,24 @@ SetupResult<fs::path> RotatingWriter::look_after(MonoTime now) {
 }
 
 bool RotatingWriter::is_removed() const noexcept { return writer_ && writer_->is_file() && !writer_->is_named(); }
+bool RotatingWriter::is_deleted() const noexcept { return writer_ && writer_->is_file() && !writer_->is_linked(); }
+
+SetupResult<void> RotatingWriter::leave_deleted() {
+    if (!is_deleted()) return {};
+    auto deleted = segment_path();
+    auto begun = begin_again();
+    if (begun) left_ = std::move(deleted);
+    return begun;
+}
 
 SetupResult<void> RotatingWriter::begin_again() {
-    const bool is_empty = writer_->buffered_bytes() == 0;
+    const bool is_empty = writer_->buffered_bytes() == 0, was_deleted = is_deleted();
+    if (was_deleted) writer_->let_go();  // the new file may need its space
     if (rotation_.rotates() && is_empty) return end_segment();
     const auto begin = is_empty ? begin_ : writer_->first_buffered_time();
-    auto next = TlogWriter::create_file(rotation_.rotates() ? free_name(begin) : path_);
+    auto next = next_file(begin);
     if (!next) {
-        if (!writer_->is_linked()) no_file_ = next.error();
+        if (was_deleted) no_file_ = next.error();
         return tl::unexpected(std::move(next.error()));
     }
     no_file_.reset();
@@ -134,6 +155,8 @@ SetupResult<void> RotatingWriter::begin_segment(TlogWriter next, WallTime time) 
 // The new segment is opened before the old one is closed, so if it cannot be opened, nothing has changed.
 SetupResult<void> RotatingWriter::make_room(WallTime time, const wire::FrameView& frame) {
     if (no_file_) return writer_->has_room(frame) ? SetupResult<void>{} : tl::unexpected(*no_file_);
+    if (begins_segment(time, frame) || !writer_->has_room(frame))
+        if (auto left = leave_deleted(); !left) return left;
     if (!begins_segment(time, frame)) return writer_->make_room(frame);
     auto flushed = flush();
     if (!flushed && can_retry(flushed.error())) return flushed;  // after any other error, a new segment may help
@@ -152,7 +175,8 @@ bool RotatingWriter::can_retry(const SetupError& error) const noexcept {
 
 SetupResult<void> RotatingWriter::flush() {
     if (no_file_) return tl::unexpected(*no_file_);
-    return writer_ ? writer_->flush() : SetupResult<void>{};
+    if (!writer_ || is_deleted()) return {};  // look_after() begins a new file for what is buffered
+    return writer_->flush();
 }
 
 SetupResult<void> RotatingWriter::close() {
@@ -182,8 +206,10 @@ std::uint64_t RotatingWriter::written_bytes() const noexcept {
     return before_.bytes + (writer_ ? writer_->written_bytes() : 0);
 }
 
-std::string removal_notice(const fs::path& removed) {
-    return fmt::format("{} was removed or replaced; a new file begins", removed.string());
+std::string removal_notice(const fs::path& removed, const fs::path& next) {
+    const bool has_another_name = !next.empty() && next != removed;
+    return fmt::format("{} was removed or replaced; a new file begins{}", removed.string(),
+                       has_another_name ? ": " + next.string() : "");
 }
 
 }  // namespace mavloom::record

@@ -169,6 +169,7 @@ SetupResult<void> TlogWriter::keep_whole_records(File::Written result) {
 
 SetupResult<void> TlogWriter::close() {
     auto flushed = flush();
+    if (!file_.is_open()) return flushed;
     auto closed = file_.sync_and_close();
     return flushed ? closed : flushed;
 }

@@ -53,7 +53,7 @@ private:
         auto removed = writer_.look_after(mono_now());
         if (!removed && writer_.can_retry(removed.error())) return {};  // the next write waits
         if (!removed) return tl::unexpected(std::move(removed.error()));
-        if (!removed->empty()) print_notice(common_, record::removal_notice(*removed));
+        if (!removed->empty()) print_notice(common_, record::removal_notice(*removed, writer_.segment_path()));
         return {};
     }
 

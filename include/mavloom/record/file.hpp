@@ -54,6 +54,7 @@ public:
     [[nodiscard]] SetupResult<void> seek(std::uint64_t offset);
     [[nodiscard]] SetupResult<void> truncate(std::uint64_t size);
     [[nodiscard]] SetupResult<std::uint64_t> size() const;
+    void close() noexcept;
     // Waits until the disk has all bytes, then closes the file. The file is closed even if this fails.
     [[nodiscard]] SetupResult<void> sync_and_close();
 

@@ -46,12 +46,14 @@ public:
     [[nodiscard]] SetupResult<void> write(WallTime time, const wire::FrameView& frame);
     // Adds one to `lost_records`, for a record that the caller stopped trying to write.
     void give_up() noexcept { ++refused_; }
+    // Keeps the records in the buffer if the file was deleted.
     [[nodiscard]] SetupResult<void> flush();
     // Call it for each batch of frames and at least once a second. Twice a second, it writes the buffered records to
     // the file. If another program removed, renamed or replaced that file, it begins a new file for them instead. With
-    // rotation and an empty buffer, the next frame begins the new file. Returns the path of the old file; empty if it
-    // is still there. If no new file can be created, a later call tries again. Until then, records go to the old file
-    // if it was renamed, and to no file if it was deleted.
+    // rotation and an empty buffer, the next frame begins the new file. Without rotation, the new file has the old
+    // name, unless a file that is no recording has taken it; then _2, _3, ... is appended to the stem. Returns the path
+    // of the old file; empty if it is still there. If no new file can be created, a later call tries again. Until then,
+    // records go to the old file if it was renamed, and to no file if it was deleted.
     [[nodiscard]] SetupResult<std::filesystem::path> look_after(MonoTime now);
     // Writes the buffered records and closes the file. If the file was removed, writes them to a new one.
     [[nodiscard]] SetupResult<void> close();
@@ -75,7 +77,11 @@ private:
 
     [[nodiscard]] bool begins_segment(WallTime time, const wire::FrameView& frame) const noexcept;
     [[nodiscard]] bool is_removed() const noexcept;
+    [[nodiscard]] bool is_deleted() const noexcept;
+    // Begins a new file if the open one was deleted.
+    [[nodiscard]] SetupResult<void> leave_deleted();
     [[nodiscard]] SetupResult<void> begin_again();
+    [[nodiscard]] SetupResult<TlogWriter> next_file(WallTime begin) const;
     [[nodiscard]] SetupResult<void> end_segment();
     [[nodiscard]] SetupResult<void> continue_in(TlogWriter next);
     [[nodiscard]] SetupResult<void> begin_segment(TlogWriter next, WallTime time);
@@ -84,6 +90,7 @@ private:
     std::filesystem::path path_;
     Rotation rotation_;
     std::optional<TlogWriter> writer_;
+    std::filesystem::path left_;         // a deleted file that look_after() has not reported yet
     std::optional<SetupError> no_file_;  // why there is no new file yet in place of the deleted one
     MonoTime look_due_{};
     WallTime begin_{};  // the time of the open segment's first frame
@@ -96,7 +103,8 @@ private:
     bool closed_ = false;               // records that the last segment still buffers are lost
 };
 
-// Returns the text that reports a removed file to a user.
-[[nodiscard]] std::string removal_notice(const std::filesystem::path& removed);
+// Returns the text that reports a removed file to a user. `next` is the file that continues the recording; empty if the
+// next frame begins it.
+[[nodiscard]] std::string removal_notice(const std::filesystem::path& removed, const std::filesystem::path& next);
 
 }  // namespace mavloom::record

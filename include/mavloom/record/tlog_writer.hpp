@@ -50,6 +50,9 @@ public:
     // are not in the file.
     [[nodiscard]] SetupResult<void> close();
 
+    // Closes the file without writing the buffered records to it. Only `take_buffered` and `close` may follow.
+    void let_go() noexcept { file_.close(); }
+
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return file_.path(); }
     // The new name of a file that existed at this path; empty if there was none.
     [[nodiscard]] const std::filesystem::path& renamed_to() const noexcept { return renamed_to_; }

@@ -58,7 +58,7 @@ public:
     }
 
     void close() {
-        if (close_file()) warn(record::removal_notice(path_));
+        if (const auto next = close_file(); !next.empty()) warn(record::removal_notice(path_, next));
     }
 
     [[nodiscard]] const std::string& path() const noexcept { return path_; }
@@ -75,29 +75,29 @@ private:
     // Looks after the file, then calls work(writer).
     template <class Work>
     void warn_if_removed(Work work) {
-        const auto removed = [&] {
+        const auto notice = [&] {
             const auto lock = lock_without_gil(mutex_);
             if (!writer_) raise_closed(path_ + ": the recording is closed");
-            auto looked = value_or_raise(writer_->look_after(mono_now()));
+            const auto removed = value_or_raise(writer_->look_after(mono_now()));
             value_or_raise(work(*writer_));
-            return looked;
+            return removed.empty() ? std::string() : record::removal_notice(removed, writer_->segment_path());
         }();
-        if (!removed.empty()) warn(record::removal_notice(removed));
+        if (!notice.empty()) warn(notice);
     }
-    // Returns whether the file was removed, so that the last records are in a new one.
-    bool close_file() {
+    // If the file was removed, returns the new one, which has the last records.
+    std::filesystem::path close_file() {
         const auto lock = lock_without_gil(mutex_);
-        if (!writer_) return false;
+        if (!writer_) return {};
         const auto files = writer_->segments();
         auto done = [&] {
             const WithoutGil outside;
             return writer_->close();
         }();
-        const bool removed = writer_->segments() != files;
+        const auto next = writer_->segments() != files ? writer_->segment_path() : std::filesystem::path{};
         records_ = writer_->written_records();
         writer_.reset();
         value_or_raise(std::move(done));
-        return removed;
+        return next;
     }
 
     const std::string path_;

@@ -16,7 +16,7 @@ import pytest
 import frames
 import harness
 import routers
-from disks import SmallDisk
+from disks import FewFilesDisk, SmallDisk
 from routers import Router, TcpEnd, UdpEnd
 
 LOCALHOST = "127.0.0.1"
@@ -466,6 +466,51 @@ def test_a_rotated_recording_keeps_to_its_limits_on_a_full_disk(pair, tmp_path):
         paths = sorted(tmp_path.glob("*.tlog"))
         assert [frame for path in paths for _, frame in frames.read_tlog(path)] == tape.sent
         assert len(paths) > len(files) and max(path.stat().st_size for path in paths) <= 20 << 10
+
+
+def recorded_in(folder):
+    return [frame for path in sorted(folder.glob("*.tlog")) for _, frame in frames.read_tlog(path)]
+
+
+@pytest.mark.parametrize("freed", ["fillers", "segment"])
+def test_rotation_continues_when_the_disk_has_inodes_again(pair, tmp_path, freed):
+    disk = FewFilesDisk(tmp_path)
+    with contextlib.closing(disk):
+        net = pair(f"tlog://{tmp_path / 'flight.tlog'}?name=tape&rotate_bytes=100kB")
+        tape = Tape(net)
+        harness.wait_for(lambda: tape.after_more() and "No space left on device" in net.process.stderr,
+                         what="the last inode")
+        deleted = []
+        if freed == "fillers":
+            disk.free(net.process.pid)
+        else:  # the open segment: its inode is free only when the router has closed it
+            last = max(tmp_path.glob("*.tlog"))
+            deleted = [frame for _, frame in frames.read_tlog(last)]
+            last.unlink()
+        net.process.wait_output("records are written again", stream="err")
+        if deleted:
+            net.process.wait_output(f"tape: {last} was removed or replaced; a new file begins", stream="err")
+        harness.wait_for(lambda: tape.counters()["frames"] == len(tape.sent), what="the frames that waited")
+        assert net.process.stop().status == 130
+        assert len(recorded_in(tmp_path)) + len(deleted) == len(tape.sent)
+
+
+def test_a_recording_whose_file_is_replaced_continues_beside_it(pair, tmp_path):
+    """Every frame after that was missing."""
+    path = tmp_path / "flight.tlog"
+    net = pair(f"tlog://{path}?name=tape")
+    tape = Tape(net)
+    harness.wait_for(lambda: tape.after_more()["frames"] == len(tape.sent), what="records")
+    before = len(frames.read_tlog(path))
+    path.unlink()
+    path.write_text("another program's notes")
+    net.process.wait_output(f"{path} was removed or replaced; a new file begins: {tmp_path / 'flight_2.tlog'}",
+                            stream="err")
+    tape.after_more()
+    assert net.process.stop().status == 130
+
+    assert path.read_text() == "another program's notes"
+    assert [frame for _, frame in frames.read_tlog(tmp_path / "flight_2.tlog")] == tape.sent[before:]
 
 
 def test_a_recording_finds_room_again_without_further_frames(pair, tmp_path):

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <fstream>
 #include <string>
 
 #include "mavloom/record/tlog_reader.hpp"
@@ -257,34 +258,84 @@ TEST(RotatingWriter, WithoutAFileNothingCountsAsWritten) {
     EXPECT_EQ(content_of(dir / "sub/x.tlog").size(), taken * heartbeat_record_bytes);
 }
 
-TEST(RotatingWriter, AFifoInThePlaceOfItsFileIsAnErrorUntilItIsGone) {
+struct Intruder {
+    const char* what;
+    void (*put_at)(const std::filesystem::path& path);
+};
+
+class FindsAnotherFileInItsPlace : public testing::TestWithParam<Intruder> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    RotatingWriter, FindsAnotherFileInItsPlace,
+    testing::Values(Intruder{"Text", [](const auto& path) { std::ofstream(path) << "a note"; }},
+                    Intruder{"Folder", [](const auto& path) { std::filesystem::create_directory(path); }},
+                    Intruder{"Fifo", [](const auto& path) { ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0); }},
+                    Intruder{"LinkToDevice",
+                             [](const auto& path) { std::filesystem::create_symlink("/dev/null", path); }}),
+    [](const auto& given) { return given.param.what; });
+
+// It went nowhere until the other file was gone. (To wait for the reader of a FIFO would hang the test.)
+TEST_P(FindsAnotherFileInItsPlace, ContinuesBesideIt) {
     const TempDir dir;
     auto writer = created(dir / "x.tlog", {});
     ASSERT_TRUE(writer.write(begin, heartbeat()).has_value());
     std::filesystem::remove(dir / "x.tlog");
-    ASSERT_EQ(::mkfifo((dir / "x.tlog").c_str(), 0600), 0);
+    GetParam().put_at(dir / "x.tlog");
+    const auto intruder = std::filesystem::symlink_status(dir / "x.tlog").type();
 
-    const auto refused = writer.look_after(MonoTime{} + 1s);  // waiting for a reader would hang the test
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_THAT(refused.error().text, HasSubstr("x.tlog is a device or FIFO"));
-    EXPECT_EQ(refused.error().code, SetupCode::in_use);
+    EXPECT_EQ(writer.look_after(MonoTime{} + 1s).value(), dir / "x.tlog");
+    EXPECT_EQ(writer.segment_path(), dir / "x_2.tlog");
+    record(writer, {1s});
 
-    std::filesystem::remove(dir / "x.tlog");
-    EXPECT_EQ(writer.look_after(MonoTime{} + 2s).value(), dir / "x.tlog");
-    ASSERT_TRUE(writer.close().has_value());
-    EXPECT_EQ(content_of(dir / "x.tlog").size(), heartbeat_record_bytes);
+    EXPECT_EQ(content_of(dir / "x_2.tlog").size(), 2 * heartbeat_record_bytes);
+    EXPECT_EQ(std::filesystem::symlink_status(dir / "x.tlog").type(), intruder);
+    EXPECT_EQ(writer.lost_records(), 0u);
 }
 
-TEST(RotatingWriter, ALinkToADeviceInThePlaceOfItsFileIsAnErrorAtTheEnd) {
+TEST_P(FindsAnotherFileInItsPlace, EndsBesideIt) {
     const TempDir dir;
     auto writer = created(dir / "x.tlog", {});
     ASSERT_TRUE(writer.write(begin, heartbeat()).has_value());
     std::filesystem::remove(dir / "x.tlog");
-    std::filesystem::create_symlink("/dev/null", dir / "x.tlog");
+    GetParam().put_at(dir / "x.tlog");
 
-    EXPECT_FALSE(writer.close().has_value());
-    EXPECT_EQ(writer.written_records(), 0u);
-    EXPECT_TRUE(std::filesystem::is_symlink(dir / "x.tlog"));
+    ASSERT_TRUE(writer.close().has_value());
+    EXPECT_EQ(content_of(dir / "x_2.tlog").size(), heartbeat_record_bytes);
+}
+
+// Between two looks, records went into the deleted file.
+TEST(RotatingWriter, NothingIsWrittenToADeletedFile) {
+    const TempDir dir;
+    auto writer = created(dir / "x.tlog", {});
+    std::filesystem::remove(dir / "x.tlog");
+    constexpr int count = 3 * TlogWriter::default_buffer_bytes / heartbeat_record_bytes;
+    for (int i = 0; i < count; ++i) {
+        ASSERT_TRUE(writer.write(begin, heartbeat()).has_value());
+        if (i < 3) {
+            ASSERT_TRUE(writer.flush().has_value());
+        }
+    }
+
+    EXPECT_EQ(writer.look_after(MonoTime{} + 1s).value(), dir / "x.tlog");
+    ASSERT_TRUE(writer.close().has_value());
+    EXPECT_EQ(content_of(dir / "x.tlog").size(), count * heartbeat_record_bytes);
+}
+
+// The next segment began before somebody looked, so nobody heard of it, and its last records were lost.
+TEST(RotatingWriter, ADeletedSegmentIsReportedIfTheNextOneBeginsFirst) {
+    const TempDir dir;
+    auto writer = created(dir / "x.tlog", {.every = 10s});
+    ASSERT_TRUE(writer.write(begin, heartbeat()).has_value());
+    ASSERT_TRUE(writer.flush().has_value());
+    std::filesystem::remove(dir / "x-20231114T221320.000Z.tlog");
+    ASSERT_TRUE(writer.write(begin + 1s, heartbeat()).has_value());
+    ASSERT_TRUE(writer.write(begin + 11s, heartbeat()).has_value());
+
+    EXPECT_EQ(writer.look_after(MonoTime{} + 1s).value(), dir / "x-20231114T221320.000Z.tlog");
+    record(writer, {12s});
+    EXPECT_EQ(content_of(dir / "x-20231114T221321.000Z.tlog").size(), heartbeat_record_bytes);
+    EXPECT_EQ(content_of(dir / "x-20231114T221331.000Z.tlog").size(), 2 * heartbeat_record_bytes);
+    EXPECT_EQ(writer.written_records(), 4u);
 }
 
 TEST(RotatingWriter, WhatNoNewFileTookIsLostAndCounted) {
