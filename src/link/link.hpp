@@ -37,6 +37,8 @@ struct Link {
         // The link has an allowance: how many more bytes may be sent to it. A sender that forges its address thus
         // cannot direct all traffic to the owner of that address. Only UDP peers have an allowance.
         limited,
+        // The far side refuses frames, and gets none for a while. Only UDP peers are paused.
+        paused,
         // The far side reads outgoing frames from the ring. They are counted, never queued.
         found_in_ring,
     };
@@ -52,6 +54,20 @@ struct Link {
         if (allowance_bytes_ < static_cast<std::int64_t>(bytes)) return false;
         allowance_bytes_ -= static_cast<std::int64_t>(bytes);
         return true;
+    }
+
+    // Counts frames as refused until `until`, instead of sending them.
+    void pause(MonoTime until) noexcept {
+        if (sending != Sending::queued) return;
+        sending = Sending::paused;
+        paused_until_ = until;
+    }
+    void resume() noexcept {
+        if (sending == Sending::paused) sending = Sending::queued;
+    }
+    [[nodiscard]] bool is_paused(MonoTime now) noexcept {
+        if (now >= paused_until_) resume();
+        return sending == Sending::paused;
     }
 
     LinkId id;  // Core::add_link sets this and `dialect`
@@ -72,6 +88,7 @@ struct Link {
 
 private:
     std::int64_t allowance_bytes_ = 0;
+    MonoTime paused_until_{};
 };
 
 }  // namespace mavloom::link::detail

@@ -6,6 +6,7 @@
 #include <linux/sock_diag.h>
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cerrno>
@@ -199,16 +200,20 @@ IoResult<std::size_t> UdpSocket::send(SendBatch& batch, std::size_t first) noexc
     return static_cast<std::size_t>(count);
 }
 
-static IoError error_in(msghdr& header) noexcept {
+// The kernel writes a sock_extended_err and behind it the reporter's address.
+static void read_report(msghdr& header, UdpSocket::Failure& failure) noexcept {
     for (cmsghdr* control = CMSG_FIRSTHDR(&header); control != nullptr; control = CMSG_NXTHDR(&header, control)) {
         const bool is_error = (control->cmsg_level == IPPROTO_IP && control->cmsg_type == IP_RECVERR) ||
                               (control->cmsg_level == IPPROTO_IPV6 && control->cmsg_type == IPV6_RECVERR);
         if (!is_error) continue;
         sock_extended_err error;
         std::memcpy(&error, CMSG_DATA(control), sizeof error);
-        return io_error_of(static_cast<int>(error.ee_errno));
+        failure.error = io_error_of(static_cast<int>(error.ee_errno));
+        const std::size_t rest = std::min<std::size_t>(control->cmsg_len - CMSG_LEN(sizeof error), Address::capacity);
+        std::memcpy(failure.reporter.writable(), CMSG_DATA(control) + sizeof error, rest);
+        failure.reporter.normalize();
+        return;
     }
-    return IoError::other;
 }
 
 std::optional<UdpSocket::Failure> UdpSocket::take_failure() noexcept {
@@ -221,7 +226,7 @@ std::optional<UdpSocket::Failure> UdpSocket::take_failure() noexcept {
     header.msg_controllen = control.size();
     if (recvmsg(fd_.get(), &header, MSG_ERRQUEUE | MSG_DONTWAIT) < 0) return std::nullopt;
     failure.to.normalize();
-    failure.error = error_in(header);
+    read_report(header, failure);
     return failure;
 }
 

@@ -118,7 +118,8 @@ public:
 
     // Removes and returns the oldest queued ICMP error about an earlier datagram. Returns nothing if there is none.
     struct Failure {
-        Address to;  // the datagram's destination
+        Address to;        // the datagram's destination
+        Address reporter;  // the host that reported the failure
         IoError error = IoError::other;
     };
     [[nodiscard]] std::optional<Failure> take_failure() noexcept;

@@ -19,13 +19,13 @@ Core::Core(const dialect::Dialect& usual, std::unique_ptr<net::EventLoop> loop, 
 std::size_t Core::turn(LinkHandler& handler, MonoTime deadline) {
     assert(events.handler() == nullptr && "turn must not be called inside a callback");
     now_ = mono_now();
-    coalescing.count(turn_began_, now_, std::exchange(frames_this_turn_, 0), std::exchange(more_waits_, false));
+    coalescing.count(std::exchange(last_turn_, {}), now_);
     events.begin_turn(handler, links);
     outlets.flush();
     if (const auto until = coalescing.rest_until(); until && deadline > now_)
         net::EventLoop::sleep_until(std::min(*until, deadline));
     loop_->wait(wait_limit(deadline));
-    now_ = turn_began_ = mono_now();
+    now_ = last_turn_.began = mono_now();
     ++turns_;
     look_ups.stop_waiting();
     if (loop_->dispatch(now_)) look_ups.deliver();
@@ -35,7 +35,7 @@ std::size_t Core::turn(LinkHandler& handler, MonoTime deadline) {
     outlets.flush();
     graveyard.clear();
     events.end_turn();
-    return frames_this_turn_;
+    return last_turn_.frames;
 }
 
 MonoTime Core::wait_limit(MonoTime deadline) const {
@@ -81,7 +81,7 @@ void Core::on_frame(Link& link, const wire::ParseEvent& event, WallTime time) {
     if (event.info == nullptr) [[unlikely]]
         counters.unknown_ids.add();
     const auto* const update = owner_counts_loss_ ? &wire::no_loss : &count_loss(link, event.frame, event.info);
-    ++frames_this_turn_;
+    ++last_turn_.frames;
     events.handler()->on_frame({.frame = event.frame,
                                 .info = event.info,
                                 .link = link.id,
@@ -116,10 +116,17 @@ static bool count_unconfirmed(Link& link) noexcept {
     return false;
 }
 
+// The frame counts as sent to the link, as those do that the network refuses later.
+static bool count_refused(Link& link) noexcept {
+    link.counters.refused.add();
+    return true;
+}
+
 bool Core::queue(Link& link, net::BlockQueue& lane, OutgoingFrame& outgoing, const wire::FrameView& frame, MonoTime now) {
     if (link.sending != Link::Sending::queued) [[unlikely]] {
         if (link.sending == Link::Sending::found_in_ring) return count_found(link, frame);
-        if (!link.spend(frame.size())) return count_unconfirmed(link);
+        if (link.is_paused(now)) return count_refused(link);
+        if (link.has_allowance() && !link.spend(frame.size())) return count_unconfirmed(link);
     }
     const LinkDialect& dialect = *link.dialect;
     const auto pushed = lane.push(frame.bytes(), outgoing.block_class(dialect), outgoing.key(dialect), now);

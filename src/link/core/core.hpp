@@ -73,7 +73,12 @@ public:
     [[nodiscard]] std::uint64_t turns() const noexcept { return turns_; }
     [[nodiscard]] bool has_begun() const noexcept { return !look_ups.may_wait(); }
     // Notes that a read of this turn left input unread.
-    void note_more_waits() noexcept { more_waits_ = true; }
+    void note_more_waits() noexcept { last_turn_.more_waits = true; }
+    // Notes a datagram that was sent.
+    void note_datagram(std::size_t frames) noexcept {
+        last_turn_.sent_frames += frames;
+        ++last_turn_.sent_datagrams;
+    }
 
     // `add_link` makes `link.name` unique, and assigns its id and dialect.
     void add_link(Link& link);
@@ -125,9 +130,8 @@ private:
     const std::unique_ptr<net::EventLoop> loop_;
     MonoTime now_ = mono_now();
     std::uint64_t turns_ = 0;
-    bool owner_counts_loss_ = false, more_waits_ = false;
-    std::size_t frames_this_turn_ = 0;
-    MonoTime turn_began_{};
+    bool owner_counts_loss_ = false;
+    Coalescing::Turn last_turn_{};  // the current one, during a turn
 
 public:
     // The parts, for the endpoints to use.

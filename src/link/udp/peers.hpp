@@ -23,6 +23,11 @@ public:
         // confirmation is confirmed before its link is up.
         virtual void on_first_confirmed(const net::Address&) {}
         virtual void on_last_confirmed_gone() {}
+        // A program on this machine may invent many peers, and a frame to each of them costs several system calls if
+        // its port is closed. So such a peer gets little. Over a network, anybody can forge such a report.
+        void on_refused(UdpPeer& peer, const net::Address& reporter, MonoTime now) final {
+            if (peer.address.is_loopback() && reporter.is_loopback()) peer.pause_sending(now);
+        }
     };
 
     static constexpr std::chrono::seconds default_idle{60};

@@ -27,8 +27,11 @@ bool UdpPeer::note_heard(MonoTime now, std::size_t bytes) noexcept {
     ++datagrams;
     listens_ = true;
     refuses_until_ = {};
+    resume();
     return confirms;
 }
+
+void UdpPeer::pause_sending(MonoTime now) noexcept { pause(now + refusal_holds); }
 
 void UdpPeer::move_to(const net::Address& where) noexcept {
     if (where == address) return;
@@ -109,7 +112,10 @@ void UdpPort::take_failures() {
         counters_.send_errors.add();
         const bool nobody_there = failure->error == net::IoError::refused || failure->error == net::IoError::unreachable;
         UdpPeer* const peer = nobody_there ? owner_.find_peer(*this, failure->to) : nullptr;
-        if (peer != nullptr) peer->note_refusal(core_.now());
+        if (peer != nullptr) {
+            peer->note_refusal(core_.now());
+            owner_.on_refused(*peer, failure->reporter, core_.now());
+        }
         owner_.on_send_error(failure->error);
     }
 }
@@ -208,6 +214,7 @@ bool UdpPort::submit() {
 }
 
 void UdpPort::account(const Part& part) noexcept {
+    core_.note_datagram(part.frames);
     if (part.peer == nullptr) return;
     UdpPeer& peer = *part.peer;
     peer.queue.pop(part.until);

@@ -42,6 +42,8 @@ struct UdpPeer final : Link {
     // Notes that the far side's port is closed. ICMP does not report every datagram sent to a closed port, so frames
     // sent in the next second also count as refused.
     void note_refusal(MonoTime now) noexcept;
+    // Sends nothing for as long as a refusal holds, or until the peer is heard.
+    void pause_sending(MonoTime now) noexcept;
     // Changes the far side's address. Refusals from the old address are forgotten.
     void move_to(const net::Address& where) noexcept;
     // Counts sent frames at once only if the peer was heard since its last refusal. Otherwise `settle` counts them.
@@ -75,6 +77,8 @@ public:
     [[nodiscard]] virtual UdpPeer* find_peer(UdpPort& port, const net::Address& address) const;
     // Called when a datagram has confirmed the peer's address: see UdpPeer::note_heard.
     virtual void on_confirmed(UdpPeer&) {}
+    // Called when `reporter` has reported that nobody listens at the peer's address.
+    virtual void on_refused(UdpPeer&, const net::Address& /*reporter*/, MonoTime /*now*/) {}
     // Called when the kernel or the network has rejected a datagram.
     virtual void on_send_error(net::IoError error) = 0;
 };

@@ -496,6 +496,36 @@ TEST(LinksUdp, ARefusalIsThatOfItsPeerOnly) {
     EXPECT_EQ(links.at(1).counters->refused.value(), 1u);
 }
 
+// Each frame cost a peer with a closed port two system calls and an error, so that invented peers on loopback delayed
+// the others.
+TEST(LinksUdp, AClosedPortOfThisMachineGetsLittle) {
+    Node node;
+    const auto in = node.add("udpin://127.0.0.1:0");
+    auto peer = PlainSocket::udp();
+    peer.send_to(node.port(in), heartbeat(1));
+    ASSERT_TRUE(until([&] { return node.recorder.ups.size() == 1; }, node));
+    const std::uint16_t port = peer.port();
+    const LinkId link = node.recorder.ups[0].first;
+    peer.close();
+    constexpr unsigned count = 300;
+    for (unsigned i = 0; i < count; ++i) {
+        EXPECT_EQ(node.links->send(in, view(attitude(static_cast<std::uint8_t>(i)))), 1u);
+        node.poll();
+    }
+    const auto& counters = node.counters(link);
+    EXPECT_EQ(counters.refused.value() + counters.frames_out.value(), count);
+    EXPECT_LT(counters.frames_out.value(), 10u) << "the first: the peer was there a moment before";
+    EXPECT_LT(node.info(in).counters->send_errors.value(), 10u) << "once a second";
+
+    const auto again = PlainSocket::udp(port);
+    again.send_to(node.port(in), heartbeat(2));
+    ASSERT_TRUE(until([&] { return node.recorder.frames.size() == 2; }, node));
+    node.links->send(in, view(heartbeat(9)));
+    Bytes got;
+    ASSERT_TRUE(until([&] { return !(got = again.read()).empty(); }, node));
+    EXPECT_EQ(got, heartbeat(9)) << "at once";
+}
+
 // A name with two addresses, of which the first has nobody: the next one gets its turn.
 TEST(LinksUdp, CallingANameTriesItsNextAddress) {
     const auto addresses = net::look_up("localhost", 1);

@@ -97,6 +97,7 @@ TEST_F(Udp, LearnsOfAClosedPort) {
     ASSERT_TRUE(failure.has_value());
     EXPECT_EQ(failure->to, closed);
     EXPECT_EQ(failure->error, IoError::refused);
+    EXPECT_EQ(failure->reporter.host_text(), "127.0.0.1");
     EXPECT_FALSE(a.take_failure().has_value());
     const UdpSocket now_open = std::move(*UdpSocket::open(closed, {}));
     send(a, closed, texts);
