@@ -350,6 +350,7 @@ def test_timeouts_hold(peer):
     assert connection.recv_match(type="HEARTBEAT", blocking=True, timeout=0.2) is None
     assert connection.wait_heartbeat(timeout=0.1) is None
     assert connection.recv_match(type="HEARTBEAT") is None and connection.recv_msg() is None
+    assert connection.recv_match(type="HEARTBEAT", timeout=3600) is None  # only `blocking` makes it wait
     vehicle = speaker(connection, peer)
     threading.Timer(0.1, lambda: vehicle.send(vehicle.heartbeat())).start()
     assert connection.wait_heartbeat(timeout=DEADLINE_S) is not None  # the call does not end before

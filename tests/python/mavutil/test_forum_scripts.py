@@ -14,12 +14,9 @@ from vehicles import simulator
 SCRIPTS = ROOT / "tests" / "python" / "scripts" / "simulated"
 MISSION = """heartbeat from 1 0
 cleared 0
-uploaded 5 items: MAV_MISSION_ACCEPTED
+uploaded {count} items: MAV_MISSION_ACCEPTED
 armed
-reached 1 AUTO
-reached 2 AUTO
-reached 3 AUTO
-reached 4 AUTO
+{reached}
 landed and disarmed
 """
 DUMP = """got all parameters: True
@@ -98,12 +95,17 @@ def modes(autopilot, names):
     return MODES.format(autopilot=autopilot, modes="\n".join(f"{name} True True" for name in names.split()))
 
 
+def mission(mode, numbers):
+    return MISSION.format(count=numbers[-1] + 1, reached="\n".join(f"reached {number} {mode}" for number in numbers))
+
+
 def dump(name, before):
     return DUMP.format(name=name, before=before, after=before + 1)
 
 
 # (script, autopilot, the words that follow the address, what it prints). OUT is the path of a file.
-RUNS = [("mission_fly", "ardupilot", "", MISSION),
+RUNS = [("mission_fly", "ardupilot", "OUT", mission("AUTO", range(1, 5))),
+        ("mission_fly", "px4", "OUT", mission("MISSION", range(4))),
         ("param_dump", "ardupilot", "WPNAV_SPEED OUT", dump("WPNAV_SPEED", 1000)),
         ("param_dump", "px4", "MPC_XY_VEL_MAX OUT", dump("MPC_XY_VEL_MAX", 12)),
         ("dronekit_like", "ardupilot", "", DRONEKIT), ("gps_plot", "px4", "OUT", PLOT),
@@ -114,13 +116,29 @@ RUNS = [("mission_fly", "ardupilot", "", MISSION),
         ("offboard_loop", "px4", "", OFFBOARD), ("two_vehicles", "ardupilot", "", TWO)]
 
 
+def changed(script, folder):
+    """Copies a script, with its import changed."""
+    text = script.read_text()
+    assert text.count(both.IMPORT) == 1
+    (folder / script.name).write_text(text.replace(both.IMPORT, "from mavloom import mavutil"))
+
+
 @pytest.mark.parametrize("script, autopilot, words, expected", RUNS, ids=[f"{run[0]}-{run[1]}" for run in RUNS])
 def test_a_forum_script_flies_the_simulator(script, autopilot, words, expected, tmp_path, child_environment):
-    text = (SCRIPTS / f"{script}.py").read_text()
-    assert text.count(both.IMPORT) == 1
-    (tmp_path / f"{script}.py").write_text(text.replace(both.IMPORT, "from mavloom import mavutil"))
-    out = str(tmp_path / "out")
+    changed(SCRIPTS / f"{script}.py", tmp_path)
+    out = str(tmp_path / "out.tlog")
     with simulator(autopilot, "--vehicles", "2" if script == "two_vehicles" else "1") as port:
         printed = both.run(tmp_path, script, f"tcp:127.0.0.1:{port}", *words.replace("OUT", out).split(),
                            environment=child_environment)
     assert re.sub(r"\d\d+ parameters", "all parameters", printed.replace(out, "FILE")) == expected
+    if script == "mission_fly":
+        check_log(tmp_path, expected, child_environment)
+
+
+def check_log(folder, expected, environment):
+    """The log of the flight, read by the script that lists its modes."""
+    changed(SCRIPTS.parent / "log_modes.py", folder)
+    printed = both.run(folder, "log_modes", folder / "out.tlog", environment=environment)
+    events = re.findall(r"^\S+ (mode \w+|armed|disarmed)", printed, re.MULTILINE)
+    mode = re.search(r"reached \d (\w+)", expected)[1]
+    assert f"mode {mode}" in events and events.index("armed") < len(events) - 1 - events[::-1].index("disarmed")

@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Uploads a mission with mavwp, starts it, and reports the waypoints as the copter reaches them."""
+"""Uploads a mission with mavwp, starts it, reports the waypoints as the copter reaches them, and logs the flight."""
 import math
 import sys
 import time
 from pymavlink import mavutil, mavwp
 
 master = mavutil.mavlink_connection(sys.argv[1], source_system=255)
-master.wait_heartbeat(timeout=30)
+master.setup_logfile(sys.argv[2])
+px4 = master.wait_heartbeat(timeout=30).autopilot == mavutil.mavlink.MAV_AUTOPILOT_PX4
 print("heartbeat from", master.target_system, master.target_component)
 mavlink = mavutil.mavlink
 
@@ -30,7 +31,8 @@ def add(command, north=0, east=0, alt=0, p1=0):
                                                 command, 0, 1, p1, 0, 0, 0, lat, lon, alt))
 
 
-add(mavlink.MAV_CMD_NAV_WAYPOINT)  # home
+if not px4:
+    add(mavlink.MAV_CMD_NAV_WAYPOINT)  # home
 add(mavlink.MAV_CMD_NAV_TAKEOFF, alt=10)
 add(mavlink.MAV_CMD_NAV_WAYPOINT, 20, 0, 12)
 add(mavlink.MAV_CMD_NAV_WAYPOINT, 20, 20, 12)
@@ -52,17 +54,20 @@ while True:
     else:
         master.mav.send(item)
 
-master.set_mode("GUIDED")
+master.set_mode("MISSION" if px4 else "GUIDED")
 master.arducopter_arm()
 master.motors_armed_wait()
 print("armed")
 master.mav.command_long_send(master.target_system, master.target_component, mavlink.MAV_CMD_MISSION_START,
                              0, 0, 0, 0, 0, 0, 0, 0)
-deadline = time.time() + 90
+deadline, last = time.time() + 90, -1
 while time.time() < deadline:
     msg = master.recv_match(type=["MISSION_ITEM_REACHED", "HEARTBEAT"], blocking=True, timeout=10)
     if msg.get_type() == "MISSION_ITEM_REACHED":
-        print("reached", msg.seq, master.flightmode)
+        if msg.seq != last:  # PX4 repeats it
+            print("reached", msg.seq, master.flightmode)
+        last = msg.seq
     elif msg.get_srcSystem() == master.target_system and not master.motors_armed():
         print("landed and disarmed")
         break
+master.close()
