@@ -313,7 +313,6 @@ void PlanService::on_ack(const Client& from, ByteView payload, Moment now) {
     if (transfer->stage == Stage::download || message.type == MAV_MISSION_OPERATION_CANCELLED) return drop(from, *type);
     if (message.type != MAV_MISSION_UNSUPPORTED || !parts_.firmware.is_px4()) return;
     transfer->asks_int = !transfer->asks_int;
-    transfer->heard = now.real;
     ask(*transfer, now);
 }
 

@@ -12,7 +12,7 @@ from simulators import HOME
 
 FLIGHTS = pathlib.Path(__file__).with_name("dronekit_flights.py")
 TAKEOFF, WAYPOINT = 22, 16
-SPEED = 5
+SPEED = 8
 PATIENT = {"px4": {"COM_DISARM_PRFLT": 600.0, "RTL_RETURN_ALT": 10.0, "COM_OF_LOSS_T": 10.0},
            "ardupilot": {"DISARM_DELAY": 127, "RTL_ALT": 1000}}
 

@@ -311,6 +311,17 @@ TEST_F(PlanService, AsksByMissionRequestAfterTheClientRefusedTheIntegerForm) {
     EXPECT_EQ(rig.last<MissionItemInt>()->frame, MAV_FRAME_GLOBAL_RELATIVE_ALT_INT) << "PX4's variant for this message";
 }
 
+TEST_F(PlanService, GivesUpOnAClientThatRefusesBothForms) {
+    announce(2);
+    for (int i = 0; i < 60; ++i) {
+        rig.send(MissionAck{.target_system = 1, .target_component = 1, .type = MAV_MISSION_UNSUPPORTED});
+        rig.run(0.1);
+    }
+    EXPECT_EQ(last_result(), MAV_MISSION_OPERATION_CANCELLED);
+    EXPECT_TRUE(rig.last<MissionRequest>());
+    EXPECT_TRUE(rig.last<MissionRequestInt>());
+}
+
 // DroneKit does not know MISSION_REQUEST_INT.
 TEST_F(PlanService, TriesMissionRequestWithAClientThatDoesNotAnswer) {
     announce(2);
