@@ -17,7 +17,7 @@ Craft::Craft(const VehicleOptions& options)
     : kind_(options.kind),
       ground_altitude_(options.home.altitude_m),
       airframe_(make_airframe(options.motion == Motion::random ? Kind::quad : options.kind)),
-      battery_(options.battery),
+      battery_(options.battery, options.autopilot == Autopilot::px4),
       sensors_(options.has_noise, options.seed),
       wind_(options.wind, options.seed ^ wind_stream),
       frame_(geo_of(options.home)),
@@ -34,6 +34,7 @@ void Craft::reboot() {
     time_ = {};
     sensors_.acquire_gps(false);
     sensors_.set_failures({});
+    battery_.replace();
     has_origin_ = false;
     home_.reset();
 }
@@ -45,7 +46,7 @@ void Craft::step(const Setpoint& setpoint, bool armed) {
         setpoint, armed,
         {.wind = wind_.velocity(), .ground = ground_z(), .air_density = air_density_, .supply = battery_.supply()});
     battery_.step(airframe_->load(), step_s);
-    if (!armed) battery_.charge(step_s);
+    if (!armed) battery_.rest(step_s);
     sense();
 }
 

@@ -46,7 +46,9 @@ void Flight::Impl::supervise() {
     detector.update({guidance.is_climbing(), guidance.is_landing(), navigator.is_home()});
     commander.update();
     failsafes.update();
-    if (const auto next = navigator.update()) (void)commander.enter(*next, OrderedBy::vehicle);
+    if (const auto next = navigator.update())
+        (void)(*next == Behaviour::return_home ? return_home(OrderedBy::vehicle)
+                                               : commander.enter(*next, OrderedBy::vehicle));
     report_changes();
 }
 

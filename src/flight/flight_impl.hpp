@@ -42,6 +42,7 @@ public:
     Outcome reposition(const RepositionOrder& order);
     Outcome orbit(const OrbitOrder& order);
     Outcome start_mission(std::optional<std::uint16_t> first);
+    Outcome return_home(OrderedBy by);
 
     [[nodiscard]] const Firmware& firmware() const noexcept { return context.firmware; }
     // The behaviour in which the vehicle stays where a client wants it: PX4's Hold, ArduPilot's Guided.

@@ -87,7 +87,12 @@ Outcome Flight::land(const LandOrder& /*order*/) {
 }
 
 Outcome Flight::return_home() {
-    return impl_->carry_out([&] { return impl_->commander.enter(Behaviour::return_home, OrderedBy::client); });
+    return impl_->carry_out([&] { return impl_->return_home(OrderedBy::client); });
+}
+
+Outcome Flight::Impl::return_home(OrderedBy by) {
+    if (commander.can_run(Behaviour::return_home)) context.say(Severity::info, context.texts().return_ordered);
+    return commander.enter(Behaviour::return_home, by);
 }
 
 Outcome Flight::reposition(const RepositionOrder& order) {

@@ -89,8 +89,10 @@ void Parts::step_to(Moment moment) {
     flight.set_real_time(moment.real);
     radio.set_utc(signing_time(moment));
     if (silent_until_ != FlightTime::min() && moment.flight >= silent_until_) end_silence();
+    FlightRecorder& recorder = log_service->recorder();
     for (; stepped + step_time <= moment.flight; stepped += step_time) {
         flight.step();
+        recorder.step();
         if (gimbal) gimbal->step();
     }
 }
@@ -169,6 +171,7 @@ void Parts::take_system() {
 
 // PX4 ends a text with a tab if it is also an event, so that ground stations show one of the two.
 void Parts::on_text(Severity severity, std::string_view text) {
+    log_service->recorder().note(severity, text);
     if (!event_service->report_text(text)) return announcer.say(severity, text, now.flight);
     announcer.say(severity, std::string(text) + '\t', now.flight);
 }

@@ -5,8 +5,8 @@
 // the frames that the vehicle sends. The same options, links, frames and moments give the same bytes. Single owner
 // thread. docs/design/simulator.md describes the parts; docs/guide/sim.md describes what clients see.
 //
-// Memory: under 64 KiB with its services, plus what clients store (bounded by Limits). Sending and stepping allocate
-// nothing; an upload, a file or a new link does.
+// Memory: under 64 KiB with its services, plus what clients store and the logs of flights (both bounded by Limits).
+// Sending and stepping allocate nothing; an upload, a file, a new link or an arming does.
 #pragma once
 
 #include <cstddef>

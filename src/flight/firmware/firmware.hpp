@@ -31,7 +31,11 @@ struct Texts {
     std::string_view not_ready{}, no_position{}, not_in_mode{}, not_landed{};  // refusals
     std::string_view mission_finished_landed{}, mission_finished_hold{}, no_mission{};
     std::string_view executing_mission{}, climb_to{};
-    std::string_view return_begins{}, return_lands{};
+    std::string_view mission_received{}, rally_received{};  // for the client that uploaded them
+    std::string_view item_begins{}, item_jumps{};           // number and name; number, jumps done and jumps wanted
+    std::string_view waypoint_reached{}, waypoint_passed{}, waypoint_held{};  // number and distance, or seconds to wait
+    std::string_view command_done{}, turns_done{}, loiter_time_done{}, loiter_altitude_done{}, takeoff_done{};
+    std::string_view return_ordered{}, return_begins{}, return_lands{};
     std::string_view battery_low{}, battery_critical{}, battery_emergency{};
     std::string_view gcs_lost{}, gcs_regained{}, offboard_lost{}, manual_lost{}, fence_breached{};
     std::string_view unknown_mode{}, mode_refused{}, takeoff_too_low{}, offboard_without_setpoints{};
@@ -76,6 +80,8 @@ public:
     [[nodiscard]] virtual Tuning tuning(const Parameters& parameters) const = 0;
     // ArduPilot keeps home as item 0 of the mission.
     [[nodiscard]] virtual bool has_home_in_mission() const noexcept = 0;
+    // The name that Texts::item_begins has for a MAV_CMD.
+    [[nodiscard]] virtual std::string_view item_name(std::uint16_t /*command*/) const noexcept { return {}; }
 };
 
 }  // namespace mavloom::flight

@@ -103,6 +103,7 @@ constexpr Texts px4_texts_table{
     .no_mission = "Mission start denied! No valid mission",
     .executing_mission = "Executing Mission",
     .climb_to = "Climb to {} meters above home",
+    .return_ordered = "Returning to launch",
     .return_begins = "RTL: start return at {} m ({} m above destination)",
     .return_lands = "RTL: land at destination",
     .battery_low = "Low battery level, return advised",

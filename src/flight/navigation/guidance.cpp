@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flight/physics/path.hpp"
+
 namespace mavloom::flight {
 
 namespace {
@@ -12,6 +14,8 @@ constexpr double stopped_speed = 0.15;                   // m/s; slower than thi
 constexpr double crawl_height = 0.6, crawl_speed = 0.3;  // m, m/s; the last part of a landing
 // A plane lands on a final of this length from this height, and lines up behind its beginning.
 constexpr double final_length = 350, final_height = 30, line_up = 250;  // m
+// Or it lands along its last leg, if that is long and flat enough.
+constexpr double shortest_final = 100, steepest_final = 0.2;  // m; metres down for each metre ahead
 constexpr double glide_ratio = 12;   // metres ahead for each metre of height, when a plane lands straight ahead
 constexpr double far_away = 10'000;  // m, the end of a plane's climb-out
 
@@ -72,11 +76,27 @@ void Guidance::climb(double z, double yaw) {
 void Guidance::land(const Vector3& spot, double yaw) {
     spot_ = {spot.x(), spot.y(), context_.craft.ground_z()};
     if (context_.kind() != Kind::plane) return begin(Manoeuvre::final, spot_, yaw);
+    if (begins_final()) return;
     const Vector3& wind = context_.craft.wind();
     const Vector3 way = spot_ - context_.craft.estimate().position;
     const bool has_wind = horizontal_length(wind) > 2;
     const double course = has_wind ? std::atan2(-wind.y(), -wind.x()) : std::atan2(way.y(), way.x());
     begin(Manoeuvre::approach, spot_ - along(course, final_length) - Vector3(0, 0, final_height), course);
+}
+
+// The last leg or circle may lead to the spot already, as ground stations plan it. Steeper ways need an approach.
+bool Guidance::begins_final() {
+    const Estimate& now = context_.craft.estimate();
+    const bool is_leg = manoeuvre_ == Manoeuvre::leg;
+    const Vector3 entry = is_leg ? goal_ : now.position, way = spot_ - entry;
+    const double length = horizontal_length(way), turn = std::atan2(way.y(), way.x()) - direction_of(now.velocity, nan);
+    const double greatest_turn = is_leg ? pi / 2 : pi / 6;
+    if (length < shortest_final || way.z() > steepest_final * length || !(std::abs(wrap_pi(turn)) < greatest_turn))
+        return false;
+    prepare(Manoeuvre::final, spot_);
+    from_ = entry;
+    update();
+    return true;
 }
 
 void Guidance::land_ahead() {

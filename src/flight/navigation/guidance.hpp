@@ -73,6 +73,8 @@ private:
     [[nodiscard]] bool stays_on_ground() const noexcept;
     [[nodiscard]] double landing_speed() const noexcept;
     [[nodiscard]] Vector3 way() const { return goal_ - context_.craft.estimate().position; }
+    // Returns false if a plane has to fly an approach first.
+    [[nodiscard]] bool begins_final();
     void steer();
     void steer_stop();
     void steer_stay();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "flight/navigation/mission_report.hpp"
 #include "flight/navigation/mission_runner.hpp"
 #include "mavloom/msg/enums/mav_cmd.hpp"
 #include "mavloom/msg/enums/mav_frame.hpp"
@@ -66,30 +67,55 @@ void MissionRunner::lift_off(double z) {
     enter(Stage::lift);
 }
 
+// A plane joins the circle of a loiter item from outside. PX4 changes to the altitude of LOITER_TO_ALT on the circle
+// only.
 void MissionRunner::set_out() {
-    guidance_.go(place(), yaw());
     enter(Stage::travel);
+    if (!circles()) return guidance_.go(place(), yaw());
+    Vector3 center = place();
+    const double z = guidance_.goal().z();
+    if (item().command == MAV_CMD_NAV_LOITER_TO_ALT && std::isfinite(z)) center.z() = z;
+    guidance_.stay(center, nan, radius());
+}
+
+bool MissionRunner::circles() const noexcept {
+    const std::uint16_t command = item().command;
+    return context_.kind() == Kind::plane &&
+           (command == MAV_CMD_NAV_LOITER_TO_ALT || command == MAV_CMD_NAV_LOITER_TIME ||
+            command == MAV_CMD_NAV_LOITER_TURNS || command == MAV_CMD_NAV_LOITER_UNLIM);
+}
+
+double MissionRunner::radius() const noexcept {
+    const double given = param(item().command == MAV_CMD_NAV_LOITER_TO_ALT ? 2 : 3);
+    return std::isfinite(given) && given != 0 ? std::clamp(given, -1e4, 1e4) : context_.tuning.loiter_radius;
+}
+
+double MissionRunner::arrival_radius() const noexcept {
+    constexpr double turning = 25;  // m; a plane cannot meet a point more closely
+    const double least = context_.kind() == Kind::plane ? turning : 0;
+    if (circles()) return std::abs(radius()) + turning;
+    const bool has_radius = item().command == MAV_CMD_NAV_WAYPOINT && param(2) > 0;
+    return std::max(has_radius ? std::min(param(2), 1e4) : context_.tuning.acceptance_radius, least);
 }
 
 bool MissionRunner::has_arrived() const {
-    const bool is_plane = context_.kind() == Kind::plane;
-    const bool has_radius = item().command == MAV_CMD_NAV_WAYPOINT && param(2) > 0;
-    const double radius = has_radius ? std::min(param(2), 1e4) : context_.tuning.acceptance_radius;
-    const double turning = 25;  // m; a plane cannot meet a point more closely
-    if (!guidance_.is_near_goal(is_plane ? std::max(radius, turning) : radius)) return false;
-    return item().command == MAV_CMD_NAV_LOITER_TO_ALT || is_plane || guidance_.has_goal_altitude();
+    const std::uint16_t command = item().command;
+    if (!guidance_.is_near_goal(arrival_radius())) return false;
+    const bool needs_altitude = circles() ? command == MAV_CMD_NAV_LOITER_TIME || command == MAV_CMD_NAV_LOITER_UNLIM
+                                          : context_.kind() != Kind::plane && command != MAV_CMD_NAV_LOITER_TO_ALT;
+    return !needs_altitude || guidance_.has_goal_altitude();
 }
 
 void MissionRunner::begin_act() {
     const std::uint16_t command = item().command;
-    const double radius = std::isfinite(param(3)) ? std::clamp(param(3), -1e4, 1e4) : 0;
-    const double usual = context_.tuning.loiter_radius;
+    const double distance = (guidance_.goal() - context_.craft.estimate().position).head<2>().norm();
+    report_arrival(context_, index_, item(), distance, distance > arrival_radius());
     if (command == MAV_CMD_NAV_LOITER_TURNS) {
-        guidance_.circle({.center = guidance_.goal(), .radius = radius != 0 ? radius : usual});
+        guidance_.circle({.center = guidance_.goal(), .radius = radius()});
     } else if (command == MAV_CMD_NAV_LOITER_TO_ALT) {
-        guidance_.stay(guidance_.goal(), nan, param(2));
+        guidance_.stay(place(), nan, radius());
     } else if (command == MAV_CMD_NAV_LOITER_UNLIM || command == MAV_CMD_NAV_LOITER_TIME || seconds_of(param(1)) > 0) {
-        guidance_.stay(guidance_.goal(), yaw(), radius);
+        guidance_.stay(guidance_.goal(), yaw(), radius());
     }
     enter(Stage::act);
 }
@@ -98,11 +124,35 @@ bool MissionRunner::has_acted() const {
     const double passed = context_.seconds_since(since_);
     switch (item().command) {
         case MAV_CMD_NAV_LOITER_UNLIM: return false;
-        case MAV_CMD_NAV_LOITER_TO_ALT: return guidance_.has_goal_altitude();
-        case MAV_CMD_NAV_LOITER_TURNS: return guidance_.turned() >= 2 * pi * seconds_of(param(1));
+        case MAV_CMD_NAV_LOITER_TO_ALT: return guidance_.has_goal_altitude() && leaves_circle();
+        case MAV_CMD_NAV_LOITER_TURNS: return guidance_.turned() >= 2 * pi * seconds_of(param(1)) && leaves_circle();
+        case MAV_CMD_NAV_LOITER_TIME: return passed >= seconds_of(param(1)) && leaves_circle();
         case MAV_CMD_CONDITION_GATE: return true;
         default: return passed >= seconds_of(param(1));
     }
+}
+
+// A plane leaves its circle where the way to the next place is a tangent. It begins to roll out a little earlier.
+bool MissionRunner::leaves_circle() const {
+    const auto next = next_place();
+    if (!circles() || !next) return true;
+    const double across = std::abs(radius());
+    if ((*next - guidance_.goal()).head<2>().norm() < 1.05 * across) return true;  // there is no tangent
+    const Estimate& now = context_.craft.estimate();
+    const Vector3 way = *next - now.position;
+    const double course = std::atan2(now.velocity.y(), now.velocity.x());
+    const double to_turn = std::copysign(1, radius()) * wrap_pi(std::atan2(way.y(), way.x()) - course);
+    constexpr double roll_out = 0.6, tolerance = 0.03;  // s, rad
+    return std::abs(to_turn) < tolerance + roll_out * now.velocity.head<2>().norm() / across;
+}
+
+// The place of the next item that moves the vehicle; empty if it has none.
+std::optional<Vector3> MissionRunner::next_place() const {
+    const auto items = context_.plans.mission().items();
+    const auto moves = [](const PlanItem& item) { return item.command < MAV_CMD_NAV_LAST; };
+    const auto at = std::find_if(items.begin() + std::min<std::ptrdiff_t>(next_, size()), items.end(), moves);
+    const auto point = at == items.end() ? std::nullopt : position_of(*at);
+    return point ? std::optional(context_.craft.frame().to_local(*point)) : std::nullopt;
 }
 
 // --- Take-off, landing, return, waiting
@@ -118,17 +168,18 @@ bool MissionRunner::fly_takeoff() {
     return stage_ == Stage::travel && has_arrived();
 }
 
-// A rover only drives to the place.
+// A rover only drives to the place. A plane lands along its way there; others fly to a point above it first.
 bool MissionRunner::fly_landing() {
-    if (context_.kind() == Kind::rover) return fly_place();
+    const Kind kind = context_.kind();
+    if (kind == Kind::rover) return fly_place();
     if (stage_ == Stage::fresh) {
         if (context_.is_on_ground()) return true;
         const Vector3 spot = place();
-        guidance_.go({spot.x(), spot.y(), context_.craft.estimate().position.z()}, yaw());
-        enter(Stage::travel);
+        enter(kind == Kind::plane ? Stage::act : Stage::travel);
+        if (kind == Kind::plane) guidance_.land(spot);
+        if (kind != Kind::plane) guidance_.go({spot.x(), spot.y(), context_.craft.estimate().position.z()}, yaw());
     }
-    const bool is_near = context_.kind() == Kind::plane || guidance_.is_near_goal(context_.tuning.acceptance_radius);
-    if (stage_ == Stage::travel && is_near) {
+    if (stage_ == Stage::travel && guidance_.is_near_goal(context_.tuning.acceptance_radius)) {
         guidance_.land(guidance_.goal(), yaw());
         enter(Stage::act);
     }
@@ -136,6 +187,7 @@ bool MissionRunner::fly_landing() {
 }
 
 bool MissionRunner::fly_return() {
+    if (returns_by_mode()) return wants_return_ = true;
     if (stage_ == Stage::fresh) {
         return_path_.begin();
         enter(Stage::act);
@@ -177,6 +229,7 @@ void MissionRunner::jump() {
     std::uint16_t& done = jumps_[index_];
     if (repeats >= 0 && done >= repeats) return;
     if (done < std::numeric_limits<std::uint16_t>::max()) ++done;
+    report_jump(context_, index_, done, repeats);
     next_ = std::max(static_cast<std::uint16_t>(param(1)), first());
 }
 

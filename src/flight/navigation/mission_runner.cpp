@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "flight/navigation/mission_report.hpp"
 #include "mavloom/msg/enums/mav_cmd.hpp"
 
 namespace mavloom::flight {
@@ -91,7 +92,8 @@ void MissionRunner::update() {
         return;
     }
     if (!std::exchange(is_announced_, true)) context_.say(Severity::info, context_.texts().executing_mission);
-    for (int left = most_items_at_once; left > 0 && !is_complete_; --left) {
+    for (int left = most_items_at_once; left > 0 && !is_complete_ && !wants_return_; --left) {
+        if (stage_ == Stage::fresh) report_begin(context_, index_, item());
         if (!fly()) return;
         finish_item();
     }
@@ -99,6 +101,7 @@ void MissionRunner::update() {
 
 void MissionRunner::finish_item() {
     has_reached_any_ = true;
+    report_end(context_, index_, item());
     context_.observer.on_item_reached(index_);
     if (next_ >= size()) return complete();
     index_ = next_;
@@ -110,7 +113,8 @@ void MissionRunner::complete() {
     is_complete_ = true;
     const Texts& texts = context_.texts();
     const bool has_landed = context_.is_on_ground();
-    context_.say(Severity::info, has_landed ? texts.mission_finished_landed : texts.mission_finished_hold);
+    if (!wants_return_)
+        context_.say(Severity::info, has_landed ? texts.mission_finished_landed : texts.mission_finished_hold);
     if (has_landed) {
         guidance_.rest();
     } else if (!guidance_.is_staying()) {

@@ -5,6 +5,7 @@
 // Sources: MAVLink common message set, MAV_CMD; PX4 user guide, "Mission Mode".
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "flight/navigation/guidance.hpp"
@@ -34,6 +35,8 @@ public:
 
     [[nodiscard]] MissionProgress progress() const noexcept;
     [[nodiscard]] bool is_complete() const noexcept { return is_complete_; }
+    // True once after an item that makes the vehicle change to its mode for the return.
+    [[nodiscard]] bool takes_return() noexcept { return std::exchange(wants_return_, false); }
 
 private:
     // `lift`: takes off; `travel`: on the way to the item's place; `act`: there.
@@ -55,12 +58,22 @@ private:
     [[nodiscard]] bool fly_takeoff();
     [[nodiscard]] bool fly_landing();
     [[nodiscard]] bool fly_return();
+    // PX4, and ArduPilot's plane. Others return within the mission.
+    [[nodiscard]] bool returns_by_mode() const noexcept {
+        return context_.firmware.is_px4() || context_.kind() == Kind::plane;
+    }
     [[nodiscard]] bool wait(double seconds);
     void lift_off(double z);
     void set_out();
     [[nodiscard]] bool has_arrived() const;
     void begin_act();
     [[nodiscard]] bool has_acted() const;
+    // True if the item has the vehicle, a plane, circle around its place.
+    [[nodiscard]] bool circles() const noexcept;
+    [[nodiscard]] bool leaves_circle() const;
+    [[nodiscard]] std::optional<Vector3> next_place() const;
+    [[nodiscard]] double radius() const noexcept;          // of the item's circle; negative counter-clockwise
+    [[nodiscard]] double arrival_radius() const noexcept;  // within it, the vehicle is at the item's place
 
     void act_at_once();
     void jump();
@@ -81,7 +94,7 @@ private:
     Stage stage_ = Stage::fresh;
     FlightTime since_{};
     std::vector<std::uint16_t> jumps_;  // done so far, by item
-    bool runs_ = false, is_complete_ = false, has_reached_any_ = false, is_announced_ = false;
+    bool runs_ = false, is_complete_ = false, has_reached_any_ = false, is_announced_ = false, wants_return_ = false;
 };
 
 }  // namespace mavloom::flight

@@ -113,8 +113,10 @@ std::optional<Behaviour> Navigator::update_climb() {
 
 std::optional<Behaviour> Navigator::update_mission() {
     mission_.update();
-    const bool is_over = mission_.is_complete() && !context_.is_on_ground();
-    return is_over && context_.firmware.is_px4() ? std::optional(Behaviour::hold) : std::nullopt;
+    if (mission_.takes_return()) return Behaviour::return_home;
+    if (!mission_.is_complete() || context_.is_on_ground()) return std::nullopt;
+    if (context_.firmware.is_px4()) return Behaviour::hold;
+    return context_.kind() == Kind::plane ? std::optional(Behaviour::return_home) : std::nullopt;
 }
 
 // Without sticks, they stand in their middle.

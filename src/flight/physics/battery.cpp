@@ -12,13 +12,16 @@ namespace {
 constexpr double full_cell = 4.2, empty_cell = 3.5;  // V
 constexpr double loss_at_hover = 0.06;               // V
 constexpr double average_tau = 10;                   // s
+constexpr double standby_current = 0.3;              // A
 constexpr double charge_rate = 0.05;                 // of the capacity, 1/s
 
 }  // namespace
 
-Battery::Battery(const BatteryOptions& options) noexcept
+Battery::Battery(const BatteryOptions& options, bool charges_at_rest) noexcept
     : capacity_mah_(options.capacity_mah),
       hover_current_(options.capacity_mah / 1000 * 60 / options.hover_minutes),
+      idle_current_(charges_at_rest ? standby_current : 0),
+      charges_at_rest_(charges_at_rest),
       used_mah_(options.capacity_mah * (1 - options.start_percent / 100)),
       used_at_start_(used_mah_),
       cells_(options.cells) {}
@@ -34,7 +37,8 @@ void Battery::set_remaining(double share) noexcept {
     used_mah_ = used_at_start_ = capacity_mah_ * (1 - std::clamp(share, 0.0, 1.0));
 }
 
-void Battery::charge(double dt) noexcept {
+void Battery::rest(double dt) noexcept {
+    if (!charges_at_rest_) return;
     used_mah_ = std::max(used_mah_ - charge_rate * capacity_mah_ * dt, std::min(used_mah_, used_at_start_));
 }
 
@@ -46,7 +50,7 @@ double Battery::voltage() const noexcept {
 }
 
 double Battery::seconds_left() const noexcept {
-    if (average_current_ <= 2 * idle_current_) return 0;
+    if (average_current_ <= 2 * standby_current) return 0;
     return (capacity_mah_ - used_mah_) * 3.6 / average_current_;
 }
 

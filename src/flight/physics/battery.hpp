@@ -9,15 +9,18 @@ namespace mavloom::flight {
 
 class Battery {
 public:
-    explicit Battery(const BatteryOptions& options) noexcept;
+    // `charges_at_rest`: PX4's simulated battery is soon full again, and draws a little current all the time.
+    // ArduPilot's keeps its charge, and draws no current while the motors stand still.
+    Battery(const BatteryOptions& options, bool charges_at_rest) noexcept;
 
     // `load` as in Airframe::load.
     void step(double load, double dt) noexcept;
-    // Sets the charge to `share` (0 to 1). From now on, `charge` stops at that level. For tests of fail-safes.
+    // Sets the charge to `share` (0 to 1). From now on, `rest` stops at that level. For tests of fail-safes.
     void set_remaining(double share) noexcept;
-    // Charges for `dt` seconds, up to the charge at the start. A parked vehicle is therefore soon ready again, as with
-    // PX4's simulated battery.
-    void charge(double dt) noexcept;
+    // Call it while the vehicle is disarmed: charges for `dt` seconds, up to the charge at the start.
+    void rest(double dt) noexcept;
+    // The charge at the start, after a boot.
+    void replace() noexcept { used_mah_ = used_at_start_; }
 
     [[nodiscard]] std::uint8_t cells() const noexcept { return cells_; }
     [[nodiscard]] double remaining() const noexcept;                    // 0 to 1
@@ -32,7 +35,8 @@ public:
     [[nodiscard]] double supply() const noexcept;
 
 private:
-    double capacity_mah_, hover_current_, idle_current_ = 0.3;  // A
+    double capacity_mah_, hover_current_, idle_current_;  // A
+    bool charges_at_rest_;
     double used_mah_, used_at_start_, used_joule_ = 0, current_ = 0, average_current_ = 0;
     std::uint8_t cells_;
 };

@@ -34,12 +34,13 @@ public:
     [[nodiscard]] std::uint32_t unready() const noexcept;  // bits of Unready
     [[nodiscard]] SystemStatus status() const noexcept;
     [[nodiscard]] bool has_failsafe() const noexcept { return has_failsafe_; }
+    // True if nothing keeps the vehicle from doing this now.
+    [[nodiscard]] bool can_run(Behaviour behaviour) const noexcept;
     [[nodiscard]] std::uint32_t flights() const noexcept { return flights_; }
 
 private:
     [[nodiscard]] std::string_view refusal(std::uint32_t reasons) const noexcept;
     [[nodiscard]] bool is_booted() const noexcept;
-    [[nodiscard]] bool can_run(Behaviour behaviour) const noexcept;
     [[nodiscard]] bool can_arm_in(Behaviour behaviour) const noexcept;
     [[nodiscard]] bool may_disarm() const noexcept;
     [[nodiscard]] Outcome refuse_mode(const ModeInfo& mode) const;

@@ -167,7 +167,7 @@ void EventService::send_problem(const HealthProblem& problem) {
     send(problem.event, problem.modes, problem.component);
 }
 
-// The newest log begins when the vehicle boots.
+// The newest log that the vehicle brings along began when the vehicle was created.
 void EventService::announce_log() {
     const RecordedLogs& logs = parts_.log_service->logs();
     if (logs.count() == 0) return;

@@ -84,7 +84,7 @@ void FileTree::for_each(const Visit& visit) const {
     for (std::uint32_t i = 0; i < metadata.size(); ++i) visit(metadata[i], false, FileRef{shared, i}, 0u);
     visit(logs_.folder(), true, FileRef{}, 0u);
     for (std::uint16_t i = 0; i < logs_.count(); ++i)
-        visit(std::string_view{logs_.path(i)}, false, FileRef{log, i}, unix_seconds(logs_.began_at(i)));
+        visit(std::string_view{logs_.path(i)}, false, FileRef{log, logs_.serial(i)}, unix_seconds(logs_.began_at(i)));
     for (const Node& node : nodes_)
         visit(std::string_view{node.path}, node.is_directory, FileRef{written, node.id}, node.modified);
 }
@@ -127,8 +127,8 @@ std::optional<std::uint32_t> FileTree::size(const FileRef& file) const {
     switch (file.kind) {
         case FileRef::Kind::shared: return static_cast<std::uint32_t>(metadata_file(firmware_, file.number).size());
         case FileRef::Kind::log:
-            if (file.number >= logs_.count()) return std::nullopt;
-            return logs_.image(static_cast<std::uint16_t>(file.number)).size();
+            if (const auto index = logs_.index_of(file.number)) return logs_.size(*index);
+            return std::nullopt;
         case FileRef::Kind::written: break;
     }
     const Node* const node = find_node(file.number);
@@ -136,8 +136,10 @@ std::optional<std::uint32_t> FileTree::size(const FileRef& file) const {
 }
 
 std::size_t FileTree::read(const FileRef& file, std::uint32_t offset, ByteSpan out) const {
-    if (file.kind == FileRef::Kind::log)
-        return file.number < logs_.count() ? logs_.image(static_cast<std::uint16_t>(file.number)).read(offset, out) : 0;
+    if (file.kind == FileRef::Kind::log) {
+        const auto index = logs_.index_of(file.number);
+        return index ? logs_.read(*index, offset, out) : 0;
+    }
     ByteView content;
     if (file.kind == FileRef::Kind::shared) {
         content = metadata_file(firmware_, file.number);

@@ -39,7 +39,7 @@ using FileResult = tl::expected<T, FileError>;
 struct FileRef {
     enum class Kind : std::uint8_t { shared, log, written };
     Kind kind = Kind::shared;
-    std::uint32_t number = 0;  // shared: of the metadata file; log: its index; written: its id
+    std::uint32_t number = 0;  // shared: of the metadata file; log: its serial; written: its id
 };
 
 struct DirectoryEntry {

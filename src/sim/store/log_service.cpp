@@ -29,8 +29,10 @@ constexpr unsigned messages_at_once = 100;
 
 LogService::LogService(Parts& parts)
     : parts_(parts),
-      logs_(parts.options),
-      streams_(parts.firmware.is_px4(), parts.options.system, parts.options.limits.clients, parts.radio) {}
+      logs_(parts.options, parts.firmware, parts.parameters, parts.flight),
+      streams_(parts.firmware.is_px4(), parts.options.system, parts.options.limits.clients, parts.radio) {
+    logs_.recorder().reboot(parts.booted);
+}
 
 std::span<const MessageId> LogService::handled() const noexcept { return log_ids; }
 
@@ -70,10 +72,12 @@ void LogService::on_data(const Client& from, ByteView payload) {
     const int index = request.id_ - logs_.first_id();
     if (index < 0 || index >= logs_.count()) return send_nothing(from, request.id_, request.ofs);
     const auto log = static_cast<std::uint16_t>(index);
-    const std::uint64_t end = std::min<std::uint64_t>(logs_.image(log).size(),
-                                                      std::uint64_t{request.ofs} + request.count);
-    if (request.ofs >= end ||
-        !begin({.client = from, .log = log, .next = request.ofs, .end = static_cast<std::uint32_t>(end)}))
+    const std::uint64_t end = std::min<std::uint64_t>(logs_.size(log), std::uint64_t{request.ofs} + request.count);
+    if (request.ofs >= end || !begin({.client = from,
+                                      .id = request.id_,
+                                      .log = logs_.serial(log),
+                                      .next = request.ofs,
+                                      .end = static_cast<std::uint32_t>(end)}))
         send_nothing(from, request.id_, request.ofs);
 }
 
@@ -102,7 +106,7 @@ void LogService::send_entry(const Client& to, std::uint32_t index) {
                                         .num_logs = logs_.count(),
                                         .last_log_num = logs_.count(),
                                         .time_utc = static_cast<std::uint32_t>(unix_us(began) / 1'000'000),
-                                        .size = logs_.image(log).size()});
+                                        .size = logs_.size(log)});
 }
 
 void LogService::send_nothing(const Client& to, std::uint16_t id, std::uint32_t offset) {
@@ -114,9 +118,11 @@ bool LogService::send_next(Download& download) {
         send_entry(download.client, download.next++);
         return download.next < download.end;
     }
-    LogData message{.id_ = static_cast<std::uint16_t>(download.log + logs_.first_id()), .ofs = download.next};
+    const auto log = logs_.index_of(download.log);
+    if (!log) return false;
+    LogData message{.id_ = download.id, .ofs = download.next};
     message.count = static_cast<std::uint8_t>(std::min<std::size_t>(message.data.size(), download.end - download.next));
-    (void)logs_.image(download.log).read(download.next, ByteSpan(message.data).first(message.count));
+    (void)logs_.read(*log, download.next, ByteSpan(message.data).first(message.count));
     parts_.radio.send(download.client.link, message);
     download.next += message.count;
     return download.next < download.end;
@@ -130,6 +136,7 @@ void LogService::pump(Moment now) {
 void LogService::reboot() {
     downloads_.clear();
     streams_.reboot();
+    logs_.recorder().reboot(parts_.booted);
 }
 
 void LogService::forget(LinkId link) {

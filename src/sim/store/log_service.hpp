@@ -31,6 +31,7 @@ public:
     void forget(LinkId link) override;
 
     [[nodiscard]] const RecordedLogs& logs() const noexcept { return logs_; }
+    [[nodiscard]] FlightRecorder& recorder() noexcept { return logs_.recorder(); }
 
     // MAV_CMD_LOGGING_START and _STOP, which PX4 knows: streams the running log to the client.
     [[nodiscard]] Result start_stream(const Client& to, Moment now) { return streams_.start(to, now); }
@@ -41,7 +42,8 @@ private:
     struct Download {
         Client client;
         bool is_list = false;
-        std::uint16_t log = 0;
+        std::uint16_t id = 0;   // of LOG_DATA
+        std::uint32_t log = 0;  // its serial
         std::uint32_t next = 0, end = 0;
     };
     void on_list(const Client& from, ByteView payload);

@@ -191,6 +191,13 @@ void PlanService::finish(Transfer& transfer) {
     const bool marks = transfer.type == PlanType::mission && transfer.current && parts_.firmware.is_px4();
     if (marks && *transfer.current != flight.mission().current) (void)flight.set_current_item(transfer.current, false);
     acknowledge(transfer.client, number_of(transfer.type), MAV_MISSION_ACCEPTED, flight.plans().of(transfer.type).id());
+    const Texts& texts = parts_.firmware.texts();
+    if (transfer.type == PlanType::mission) announce(texts.mission_received);
+    if (transfer.type == PlanType::rally) announce(texts.rally_received);
+}
+
+void PlanService::announce(std::string_view text) {
+    if (!text.empty()) parts_.on_text(Severity::info, text);
 }
 
 void PlanService::replace(PlanType type, std::vector<PlanItem> items) {

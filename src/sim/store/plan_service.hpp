@@ -80,6 +80,7 @@ private:
     Transfer* begin_upload(const Client& from, PlanType type, Moment now);
     void store_item(Transfer& transfer, const Request& request, Moment now);
     void finish(Transfer& transfer);
+    void announce(std::string_view text);  // if there is one
     void replace(PlanType type, std::vector<PlanItem> items);
     [[nodiscard]] PlanItem stored_item(PlanType type, std::uint16_t seq) const;
     void send_item(const Client& to, PlanType type, std::uint16_t seq, bool is_int);

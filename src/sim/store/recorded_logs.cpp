@@ -159,24 +159,53 @@ void LogImage::write_record(std::uint32_t index, ByteSpan record) const noexcept
     }
 }
 
-RecordedLogs::RecordedLogs(const VehicleOptions& options) noexcept
+RecordedLogs::RecordedLogs(const VehicleOptions& options, const Firmware& firmware, const Parameters& parameters,
+                           const Flight& flight) noexcept
     : is_px4_(options.autopilot == Autopilot::px4),
       system_(options.system),
       booted_(options.utc_at_start),
-      count_(static_cast<std::uint16_t>(std::min(options.logs, most_logs))),
-      recorded_(count_) {}
+      old_(static_cast<std::uint16_t>(std::min(options.logs, most_logs))),
+      brought_(old_),
+      recorder_(options, firmware, parameters, flight) {}
 
-LogImage RecordedLogs::image(std::uint16_t index) const noexcept { return {is_px4_, system_, index}; }
+void RecordedLogs::erase() {
+    old_ = 0;
+    recorder_.erase();
+}
 
+std::uint32_t RecordedLogs::serial(std::uint16_t index) const noexcept {
+    return is_old(index) ? index : brought_ + recorder_.dropped() + index - old_;
+}
+
+std::optional<std::uint16_t> RecordedLogs::index_of(std::uint32_t number) const noexcept {
+    if (number < brought_) return number < old_ ? std::optional(static_cast<std::uint16_t>(number)) : std::nullopt;
+    const std::uint32_t first = brought_ + recorder_.dropped();
+    if (number < first || number - first >= recorder_.count()) return std::nullopt;
+    return static_cast<std::uint16_t>(old_ + number - first);
+}
+
+std::uint32_t RecordedLogs::size(std::uint16_t index) const noexcept {
+    if (is_old(index)) return LogImage(is_px4_, system_, index).size();
+    return recorder_.size(static_cast<std::uint16_t>(index - old_));
+}
+
+std::size_t RecordedLogs::read(std::uint16_t index, std::uint32_t offset, ByteSpan out) const {
+    if (is_old(index)) return LogImage(is_px4_, system_, index).read(offset, out);
+    return recorder_.read(static_cast<std::uint16_t>(index - old_), offset, out);
+}
+
+// The newest log that the vehicle brought along began when the vehicle was created.
 WallTime RecordedLogs::began_at(std::uint16_t index) const noexcept {
+    if (!is_old(index)) return recorder_.began_at(static_cast<std::uint16_t>(index - old_));
     if (booted_ == WallTime{}) return {};
-    return booted_ - between_logs * (recorded_ - 1 - index);
+    return booted_ - between_logs * (brought_ - 1 - index);
 }
 
 std::string RecordedLogs::path(std::uint16_t index) const {
-    if (!is_px4_) return fmt::format("{}/{:08}.BIN", folder(), index + 1);
+    const std::uint32_t number = serial(index) + 1;
+    if (!is_px4_) return fmt::format("{}/{:08}.BIN", folder(), number);
     const WallTime began = began_at(index);
-    if (began == WallTime{}) return fmt::format("{}/sess{:03}/log100.ulg", folder(), index + 1);  // PX4, time unknown
+    if (began == WallTime{}) return fmt::format("{}/sess{:03}/log100.ulg", folder(), number);  // PX4, time unknown
     const Calendar at = calendar_of(began);
     return fmt::format("{}/{:04}-{:02}-{:02}/{:02}_{:02}_{:02}.ulg", folder(), at.year, at.month, at.day, at.hour,
                        at.minute, at.second);

@@ -117,7 +117,6 @@ constexpr std::array rates_normal{
     StreamRate{LocalPositionNed::id, 10},
     StreamRate{PositionTargetLocalNed::id, 10, When::armed},
     StreamRate{AttitudeQuaternion::id, 20},
-    StreamRate{ActuatorControlTarget::id, 20},
     StreamRate{AttitudeTarget::id, 20, When::armed},
 };
 

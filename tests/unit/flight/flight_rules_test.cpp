@@ -169,10 +169,17 @@ TEST_F(MissionTest, FliesTurnsAroundAPoint) {
     EXPECT_NEAR(turned, -4 * pi, 1);
 }
 
-TEST_F(MissionTest, ReturnsAndDisarms) {
+// PX4's navigator asks its commander for the mode Return; the mission is then over.
+TEST_F(MissionTest, ReturnsByItsModeAndDisarms) {
     upload({takeoff_to(8), waypoint(30, 0, 8), rig.action(MAV_CMD_NAV_RETURN_TO_LAUNCH)});
     start();
+    ASSERT_TRUE(rig.run_until([&] { return rig.mode() == "Return"; }, 60));
+    EXPECT_TRUE(rig.was_said("Returning to launch"));
+    EXPECT_FALSE(rig.was_said("Mission finished, loitering"));
+    EXPECT_EQ(state(), MissionState::complete);
+    EXPECT_EQ(current(), 2);
     ASSERT_TRUE(rig.run_until([&] { return !rig.flight.armed(); }, 150));
+    EXPECT_THAT(rig.modes, ElementsAre("Hold", "Mission", "Return", "Hold"));
     EXPECT_LT(rig.place().head<2>().norm(), 1);
     EXPECT_EQ(state(), MissionState::complete);
     EXPECT_THAT(rig.reached, ElementsAre(0, 1, 2));
@@ -334,6 +341,62 @@ TEST_F(PlaneMissionTest, FliesAroundAndLands) {
     EXPECT_THAT(rig.landed, ElementsAre(on_ground, takeoff, in_air, landing, on_ground));
 }
 
+// As QGroundControl plans a landing: circle down beside the tangent that leads to the runway.
+class PlaneLandingTest : public ::testing::TestWithParam<std::tuple<Autopilot, double>> {};
+
+TEST_P(PlaneLandingTest, DescendsOnItsCircleAndLeavesItAlongTheTangent) {
+    const auto [autopilot, radius] = GetParam();
+    FlightRig rig({.kind = Kind::plane, .autopilot = autopilot, .ready_after = Nanoseconds{0}});
+    rig.run(1);
+    const float length = 400, low = 40;
+    const Vector3 center(length, -radius, 0);  // the tangent at its eastern or western end leads south, to home
+    std::vector<PlanItem> items{
+        rig.item(MAV_CMD_NAV_TAKEOFF, 0, 0, 60), rig.item(MAV_CMD_NAV_WAYPOINT, 800, -300, 90),
+        rig.item(MAV_CMD_NAV_LOITER_TO_ALT, center.x(), center.y(), low, {1, static_cast<float>(radius), 0, 1}),
+        rig.item(MAV_CMD_NAV_LAND, 0, 0, 0)};
+    if (autopilot == Autopilot::ardupilot) items.insert(items.begin(), rig.item(MAV_CMD_NAV_WAYPOINT, 0, 0, 0));
+    const auto loiter = static_cast<std::uint16_t>(items.size() - 2);
+    rig.upload(PlanType::mission, std::move(items));
+    if (autopilot == Autopilot::ardupilot) {
+        ASSERT_TRUE(rig.set_mode("AUTO").is_accepted());
+        ASSERT_TRUE(rig.arm().is_accepted());
+    } else {
+        ASSERT_TRUE(rig.flight.start_mission({}).is_accepted());
+    }
+    const auto current = [&] { return rig.flight.mission().current; };
+    ASSERT_TRUE(rig.run_until([&] { return current() == loiter; }, 120));
+    const auto off_circle = [&] { return (rig.place() - center).head<2>().norm() - std::abs(radius); };
+    double innermost = 0, highest_on_circle = 0, widest = 0;
+    bool is_on_circle = false;
+    ASSERT_TRUE(rig.run_until(
+        [&] {
+            innermost = std::min(innermost, off_circle());
+            is_on_circle = is_on_circle || std::abs(off_circle()) < 3;
+            if (is_on_circle) widest = std::max(widest, off_circle());
+            if (std::abs(off_circle()) < 20) highest_on_circle = std::max(highest_on_circle, rig.height());
+            return current() == loiter + 1;
+        },
+        200));
+    EXPECT_GT(innermost, -12);
+    EXPECT_LT(widest, 12);
+    EXPECT_NEAR(highest_on_circle, 90, 8);
+    EXPECT_NEAR(rig.height(), low, 2);
+    EXPECT_NEAR(rig.place().y(), 0, 15);
+    double off_line = 0;
+    ASSERT_TRUE(rig.run_until(
+        [&] {
+            if (rig.height() < low / 2) off_line = std::max(off_line, std::abs(rig.place().y()));
+            return rig.flight.landed() == on_ground;
+        },
+        90));
+    EXPECT_LT(off_line, 5);
+    EXPECT_NEAR(rig.place().x(), 0, 80);
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, PlaneLandingTest,
+                         ::testing::Values(std::tuple(Autopilot::px4, -75.0), std::tuple(Autopilot::px4, 100.0),
+                                           std::tuple(Autopilot::ardupilot, 75.0)));
+
 class RoverMissionTest : public MissionTest {
 protected:
     RoverMissionTest() : MissionTest({.kind = Kind::rover, .ready_after = Nanoseconds{0}}) {}
@@ -346,6 +409,61 @@ TEST_F(RoverMissionTest, DrivesFromPointToPoint) {
     rig.run(5);
     EXPECT_LT((rig.place() - Vector3(0, 30, 0)).head<2>().norm(), 3);
     EXPECT_NEAR(rig.height(), 0, 0.2);
+}
+
+// --- ArduPilot: texts of release 4.6, AP_Mission and the vehicles' commands
+
+std::vector<std::string> texts_of_a_mission(Kind kind, const std::function<std::vector<PlanItem>(FlightRig&)>& plan) {
+    FlightRig rig({.kind = kind, .autopilot = Autopilot::ardupilot, .ready_after = Nanoseconds{0}});
+    rig.run(1);
+    std::vector<PlanItem> items = plan(rig);
+    items.insert(items.begin(), rig.item(MAV_CMD_NAV_WAYPOINT, 0, 0, 0));  // home
+    rig.upload(PlanType::mission, std::move(items));
+    if (kind == Kind::quad) {
+        EXPECT_TRUE(rig.set_mode("GUIDED").is_accepted());
+    }
+    EXPECT_TRUE(rig.arm().is_accepted());
+    EXPECT_TRUE(rig.set_mode("AUTO").is_accepted());
+    EXPECT_TRUE(rig.run_until([&] { return rig.flight.mission().state == MissionState::complete; }, 300));
+    rig.run(0.1);
+    rig.texts.emplace_back(rig.mode());
+    return rig.texts;
+}
+
+TEST(ArduPilotMission, CopterReportsItsItems) {
+    const auto plan = [](FlightRig& rig) {
+        return std::vector{rig.item(MAV_CMD_NAV_TAKEOFF, 0, 0, 6), rig.item(MAV_CMD_NAV_WAYPOINT, 10, 0, 6),
+                           rig.action(MAV_CMD_DO_CHANGE_SPEED, {1, 4, -1, 0}), rig.action(MAV_CMD_DO_JUMP, {2, 1, 0, 0}),
+                           rig.item(MAV_CMD_NAV_LOITER_TIME, 10, 0, 6, {1, 0, 0, not_given})};
+    };
+    EXPECT_THAT(texts_of_a_mission(Kind::quad, plan),
+                ElementsAre("Arming motors", "Mission: 1 Takeoff", "Mission: 2 WP", "Reached command #2",
+                            "Mission: 3 ChangeSpeed", "Mission: 4 Jump 1/1", "Mission: 2 WP", "Reached command #2",
+                            "Mission: 3 ChangeSpeed", "Mission: 5 LoitTime", "Reached command #5", "AUTO"));
+}
+
+TEST(ArduPilotMission, PlaneReportsDistancesAndThenReturns) {
+    const auto plan = [](FlightRig& rig) {
+        return std::vector{rig.item(MAV_CMD_NAV_TAKEOFF, 0, 0, 40), rig.item(MAV_CMD_NAV_WAYPOINT, 600, 0, 50)};
+    };
+    const auto texts = texts_of_a_mission(Kind::plane, plan);
+    ASSERT_EQ(texts.size(), 7) << ::testing::PrintToString(texts);
+    EXPECT_EQ(texts[0], "Throttle armed");
+    EXPECT_EQ(texts[1], "Mission: 1 Takeoff");
+    EXPECT_THAT(texts[2], ::testing::MatchesRegex("Takeoff complete at [34][0-9]\\.[0-9][0-9]m"));
+    EXPECT_EQ(texts[3], "Mission: 2 WP");
+    EXPECT_THAT(texts[4], ::testing::MatchesRegex("Reached waypoint #2 dist [0-9]+m"));
+    EXPECT_EQ(texts[5], "Mission complete, changing mode to RTL");
+    EXPECT_EQ(texts[6], "RTL");
+}
+
+TEST(ArduPilotMission, RoverReportsItsWaypoints) {
+    const auto plan = [](FlightRig& rig) {
+        return std::vector{rig.item(MAV_CMD_NAV_WAYPOINT, 15, 0, 0), rig.item(MAV_CMD_NAV_WAYPOINT, 15, 10, 0, {2})};
+    };
+    EXPECT_THAT(texts_of_a_mission(Kind::rover, plan),
+                ElementsAre("Throttle armed", "Mission: 1 WP", "Reached waypoint #1", "Mission: 2 WP",
+                            "Reached waypoint #2. Loiter for 2 seconds", "Mission Complete", "AUTO"));
 }
 
 // --- Fences

@@ -181,7 +181,7 @@ TEST_F(SensorsTest, TheSameSeedGivesTheSameNoise) {
 }
 
 TEST(BatteryTest, ConsumptionIsTheIntegralOfTheCurrent) {
-    Battery battery({.capacity_mah = 5000, .cells = 4, .hover_minutes = 20});
+    Battery battery({.capacity_mah = 5000, .cells = 4, .hover_minutes = 20}, true);
     double milliampere_hours = 0, last = battery.remaining();
     for (int i = 0; i < 250 * 600; ++i) {
         battery.step(i % 500 < 250 ? 1 : 1.5, step_s);
@@ -195,7 +195,7 @@ TEST(BatteryTest, ConsumptionIsTheIntegralOfTheCurrent) {
 }
 
 TEST(BatteryTest, VoltageFallsWithLoadAndCharge) {
-    Battery battery({.cells = 4});
+    Battery battery({.cells = 4}, true);
     battery.step(0, step_s);
     const double at_rest = battery.voltage();
     battery.step(1, step_s);
@@ -209,14 +209,29 @@ TEST(BatteryTest, VoltageFallsWithLoadAndCharge) {
 }
 
 TEST(BatteryTest, ChargesUpToWhereItStarted) {
-    Battery battery({.start_percent = 60});
+    Battery battery({.start_percent = 60}, true);
     for (int i = 0; i < 250 * 300; ++i) battery.step(1, step_s);
     EXPECT_LT(battery.remaining(), 0.4);
-    for (int i = 0; i < 250 * 30; ++i) battery.charge(step_s);
+    for (int i = 0; i < 250 * 30; ++i) battery.rest(step_s);
     EXPECT_NEAR(battery.remaining(), 0.6, 1e-9);
     battery.set_remaining(0.1);
-    battery.charge(10);
+    battery.rest(10);
     EXPECT_NEAR(battery.remaining(), 0.1, 1e-9);
+}
+
+// As in ArduPilot's simulation, which draws the motors' current only.
+TEST(BatteryTest, ArduPilotsKeepsItsChargeAtRest) {
+    Battery battery({}, false);
+    for (int i = 0; i < 250 * 60; ++i) battery.step(1, step_s);
+    const double left = battery.remaining();
+    for (int i = 0; i < 250 * 60; ++i) {
+        battery.step(0, step_s);
+        battery.rest(step_s);
+    }
+    EXPECT_EQ(battery.remaining(), left);
+    EXPECT_EQ(battery.current(), 0);
+    battery.replace();
+    EXPECT_EQ(battery.remaining(), 1);
 }
 
 TEST(WindTest, GustsSpreadAroundTheSteadyWind) {

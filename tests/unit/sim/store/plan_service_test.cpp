@@ -12,6 +12,7 @@
 #include "mavloom/msg/enums/mav_frame.hpp"
 #include "mavloom/msg/enums/mav_mission_result.hpp"
 #include "mavloom/msg/enums/mav_mission_type.hpp"
+#include "mavloom/msg/enums/mav_severity.hpp"
 #include "mavloom/msg/mission_ack.hpp"
 #include "mavloom/msg/mission_clear_all.hpp"
 #include "mavloom/msg/mission_count.hpp"
@@ -790,6 +791,24 @@ protected:
     }
     ArduPilotPlanService() : PlanService(ardupilot()) { rig.run(5.0); }
 };
+
+// The texts of ArduPilot 4.6, MissionItemProtocol_Waypoints and _Rally.
+TEST_F(ArduPilotPlanService, AnnouncesThatAPlanWasReceived) {
+    const auto was_said = [&](std::string_view text) {
+        return std::ranges::any_of(rig.all<Statustext>(), [&](const Statustext& message) {
+            return std::string_view(message.text.data()) == text && message.severity == MAV_SEVERITY_INFO;
+        });
+    };
+    upload({waypoint(0, 473977430, 85455930, 0), waypoint(1, 473979229, 85455930, 10)});
+    EXPECT_TRUE(was_said("Flight plan received"));
+    EXPECT_FALSE(was_said("Rally points received"));
+    rig.forget();
+    MissionItemInt point = waypoint(0, 473979229, 85455930, 10);
+    point.command = MAV_CMD_NAV_RALLY_POINT;
+    upload({point}, MAV_MISSION_TYPE_RALLY);
+    EXPECT_TRUE(was_said("Rally points received"));
+    EXPECT_FALSE(was_said("Flight plan received"));
+}
 
 TEST_F(ArduPilotPlanService, ReturnsHomeAsItemZero) {
     upload({waypoint(0, 1, 2, 3), waypoint(1), waypoint(2)});
