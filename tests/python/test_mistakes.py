@@ -27,6 +27,7 @@ MISTAKES = [
     ("vehicle.mission.upload(5)", "upload() takes a list of items, not 5"),
     ("mavloom.enums.MAV_TYPES", "no enum MAV_TYPES in the built-in definitions; did you mean MAV_TYPE?"),
     ("mavloom.messages.ATITUDE", "no message ATITUDE in the built-in definitions; did you mean ATTITUDE?"),
+    ('conn.wait_heartbeat(timeout="3")', "timeout: a number of seconds, not '3'"),
     ('conn.recv_match(type="ATITUDE", blocking=True)',
      "type='ATITUDE': no such message, so this call would wait forever; did you mean ATTITUDE?"),
 ]

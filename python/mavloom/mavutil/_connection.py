@@ -463,7 +463,9 @@ class Connection:
 
 
 def wait_of(timeout: float) -> float:
-    """A time-out in seconds that a system call accepts. Raises UsageError for NaN."""
+    """A time-out in seconds that a system call accepts. Raises UsageError for NaN, and TypeError for text."""
+    if isinstance(timeout, (str, bytes)):
+        raise TypeError(f"timeout: a number of seconds, not {timeout!r}")
     if timeout != timeout:
         raise UsageError("timeout: nan is not a number of seconds")
     return min(max(0.0, timeout), LONGEST_WAIT_S)
