@@ -3,6 +3,7 @@
 #include <type_traits>
 
 #include "mavloom/message/format.hpp"
+#include "mavloom/message/modes.hpp"
 #include "mavloom/message/view.hpp"
 #include "mavloom/message/visit.hpp"
 #include "message/cursor.hpp"
@@ -57,6 +58,12 @@ void put_columns(Cursor& out, const MessageView& view, const dialect::Field& fie
     });
 }
 
+// The last column of HEARTBEAT. It is empty, not empty text, if the sender has no mode.
+void put_mode(Cursor& out, ByteView heartbeat) {
+    out.put(',');
+    if (const auto mode = heartbeat_mode(heartbeat); !mode.empty()) put_cell(out, mode);
+}
+
 }  // namespace
 
 void append_csv_header(TextBuffer& buffer, const dialect::Message& message) {
@@ -73,6 +80,7 @@ void append_csv_header(TextBuffer& buffer, const dialect::Message& message) {
             out.put(']');
         }
     }
+    if (has_mode(message)) out.put(",mode");
     out.put('\n');
 }
 
@@ -89,6 +97,7 @@ void append_csv_row(TextBuffer& buffer, const Received& received) {
     }
     const MessageView view(*received.message, received.frame.payload());
     for (const auto& field : received.message->fields) put_columns(out, view, field);
+    if (has_mode(*received.message)) put_mode(out, received.frame.payload());
     out.put('\n');
 }
 

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "mavloom/message/format.hpp"
+#include "mavloom/message/modes.hpp"
 #include "mavloom/message/visit.hpp"
 #include "message/number.hpp"
 #include "message/utf8.hpp"
@@ -256,6 +257,17 @@ char* write_version(char* at, const wire::FrameView& frame) noexcept {
     return frame.is_signed() ? write_literal(at, ",\"signed\":true") : write_literal(at, ",\"signed\":false");
 }
 
+// Writes what follows the fields: the end of the object, and of a HEARTBEAT the name of the sender's mode.
+char* write_end(char* at, const dialect::Message& message, ByteView payload) noexcept {
+    if (!has_mode(message)) [[likely]]
+        return write_literal(at, "}}\n");
+    const auto mode = heartbeat_mode(payload);
+    if (mode.empty()) return write_literal(at, "},\"mode\":null}\n");
+    at = write_literal(at, "},\"mode\":\"");
+    at = write_text(at, mode);
+    return write_literal(at, "\"}\n");
+}
+
 char* write_payload_hex(char* at, ByteView payload) noexcept {
     constexpr std::string_view hex = "0123456789abcdef";
     at = write_literal(at, ",\"payload_hex\":\"");
@@ -292,7 +304,7 @@ void append_json(TextBuffer& buffer, const Received& received) {
     at = write_version(at, received.frame);
     at = write_literal(at, ",\"fields\":{");
     at = write_fields(at, message, received.frame.payload());
-    commit(buffer, write_literal(at, "}}\n"));
+    commit(buffer, write_end(at, message, received.frame.payload()));
 }
 
 // ---- JsonFormatter: everything that is known in advance is prepared
@@ -352,7 +364,7 @@ void JsonFormatter::append(TextBuffer& buffer, const Received& received) const {
         at = step->key_length != 0 ? at + step->key_length : write_key(at + 1, fields[i].name);
         at = write_field_value(at, full.data() + step->offset, step->type, step->array_length);
     }
-    commit(buffer, write_literal(at, "}}\n"));
+    commit(buffer, write_end(at, *received.message, received.frame.payload()));
 }
 
 }  // namespace mavloom::message

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "mavloom/message/format.hpp"
+#include "mavloom/message/modes.hpp"
 #include "mavloom/message/view.hpp"
 #include "mavloom/message/visit.hpp"
 #include "message/command_params.hpp"
@@ -244,8 +245,19 @@ void put_param_value(Cursor& out, const MessageView& view, const CommandParams::
     put_units(out, param.definition->units);
 }
 
+// Writes " (Hold)" after the custom mode of a HEARTBEAT.
+void put_mode(Cursor& out, const MessageView& view, const dialect::Field& field) {
+    if (field.name != "custom_mode") return;
+    const auto mode = heartbeat_mode(view.payload());
+    if (mode.empty()) return;
+    out.put(" (");
+    out.put(mode);
+    out.put(')');
+}
+
 void put_fields(Cursor& out, const MessageView& view, const dialect::Dialect& dialect) {
     const CommandParams params(view, dialect);
+    const bool is_heartbeat = has_mode(view.definition());
     for (const auto& field : view.definition().fields) {
         out.put("  ");
         out.put(field.name);
@@ -261,6 +273,7 @@ void put_fields(Cursor& out, const MessageView& view, const dialect::Dialect& di
         } else {
             put_value(out, view, field);
         }
+        if (is_heartbeat) put_mode(out, view, field);
     }
 }
 

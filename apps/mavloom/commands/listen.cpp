@@ -27,6 +27,9 @@ struct ListenOptions {
     bool json = false;
     std::string csv;  // name or id of the message
     bool stats = false;
+    bool stats_only = false;
+
+    [[nodiscard]] bool has_table() const noexcept { return stats || stats_only; }
 };
 
 class Listener {
@@ -36,7 +39,7 @@ public:
         : common_(common), options_(options), dialect_(dialect), json_(dialect), receiver_(receiver), csv_(csv) {}
 
     Exit run() {
-        if (csv_ != nullptr) message::append_csv_header(output_.buffer(), *csv_);
+        if (csv_ != nullptr && !options_.stats_only) message::append_csv_header(output_.buffer(), *csv_);
         const Signals signals([](void* receiver) noexcept { static_cast<feed::Receiver*>(receiver)->stop(); },
                               &receiver_);
         log_ports(common_, receiver_.endpoints());
@@ -63,10 +66,9 @@ private:
             ++unprinted_;
             return;
         }
-        const message::Received received{entry.time, receiver_.link_name(entry.link), entry.frame,
-                                         dialect_.find(entry.frame.id())};
-        if (options_.stats) traffic_.add(entry.link, entry.frame, entry.time);
-        print(received);
+        if (options_.has_table()) traffic_.add(entry.link, entry.frame, entry.time);
+        if (!options_.stats_only)
+            print({entry.time, receiver_.link_name(entry.link), entry.frame, dialect_.find(entry.frame.id())});
         ++printed_;
         if (output_.flush_if_full() != Output::State::open || printed_ == options_.receive.count) going_ = false;
     }
@@ -98,8 +100,8 @@ private:
     Exit finish() {
         if (output_.state() == Output::State::failed) return fail(output_.error());
         const auto unprinted = count_unprinted();
-        if (options_.stats) report(unprinted);
-        if (!options_.stats) log_losses(common_, receiver_.totals());
+        if (options_.has_table()) report(unprinted);
+        else log_losses(common_, receiver_.totals());
         if (unprinted != 0)
             print_notice(common_, counted(unprinted, "message") +
                                       " received but not printed: the output had stalled at the end");
@@ -121,7 +123,8 @@ private:
     void report(std::uint64_t unprinted) {
         const auto table = options_.json ? traffic_json(traffic_, receiver_, dialect_, unprinted)
                                          : traffic_text(traffic_, receiver_, dialect_);
-        if (csv_ != nullptr || output_.state() == Output::State::interrupted) return write_stderr(table);
+        const bool has_rows = csv_ != nullptr && !options_.stats_only;
+        if (has_rows || output_.state() == Output::State::interrupted) return write_stderr(table);
         output_.buffer().append(table);
         output_.flush();
     }
@@ -168,11 +171,14 @@ Run declare_listen(Arguments command, const Common& common) {
                     "print only this message (name or id), as CSV: a header, then one row per message")
         .excludes(json);
     command.add_flag("--stats", options->stats,
-                     "at the end, print a table of rates, gaps, bytes and loss by source and message");
+                     "after the messages, print a table of rates, gaps, bytes and loss by source and message; -q does "
+                     "not leave out the messages");
+    command.add_flag("--stats-only", options->stats_only,
+                     "print only that table: no messages, also with --json and --csv");
     command.footer(
         "Examples:\n  mavloom listen udpin://0.0.0.0:14550\n  mavloom listen udpin://0.0.0.0:14550 --only "
         "ATTITUDE,VFR_HUD --json\n"
-        "  mavloom listen flight.tlog --stats\n  mavloom listen shm://px4 --for 10s\n\nExit status: 0 even if "
+        "  mavloom listen flight.tlog --stats-only\n  mavloom listen shm://px4 --for 10s\n\nExit status: 0 even if "
         "frames were lost, 130 after Ctrl-C, 1 if messages could not be printed because the output stalled at the "
         "end.");
     return [options, &common] { return listen(common, *options); };

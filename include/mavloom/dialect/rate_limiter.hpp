@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Limits frames to their Rates, separately for each source and message. Its deadlines do not drift: a 12 Hz stream
 // limited to 10 Hz is sent at 10 Hz, not at 6. Frames may arrive early or late: a 10 Hz stream with jitter passes a
-// limit of 10 Hz whole. One owner thread; allocates only at construction. `Time` is MonoTime for links, and WallTime for
-// recordings, whose frames carry their own time.
+// limit of 10 Hz whole. One owner thread; allocates only at construction. `Time` is MonoTime for links, and WallTime
+// for recordings, whose frames carry their own time.
 #pragma once
 
 #include <algorithm>

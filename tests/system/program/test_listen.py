@@ -177,6 +177,20 @@ def test_stats_table_for_people(run):
     assert any(line.split()[:2] == ["HEARTBEAT", "106"] for line in done.lines)
 
 
+def test_stats_only_prints_the_table_alone(run):
+    done = run("listen", frames.FLIGHT, "--stats-only")
+    table = run("listen", frames.FLIGHT, "--stats").lines[40087:]  # the recording's README
+    assert done.status == 0 and done.lines == table and len(table) < 60
+
+    only = run("listen", frames.FLIGHT, "--stats-only", "--csv", "ATTITUDE")
+    assert [line.split()[0] for line in only.lines if " Hz " not in line and "frames" not in line and line] \
+        == ["ATTITUDE"]
+    assert only.stderr == ""
+
+    one = json_lines(run("listen", frames.FLIGHT, "--stats-only", "--json").stdout)
+    assert one == json_lines(run("listen", frames.FLIGHT, "--stats", "--json").stdout)[-1:]
+
+
 def test_loss_duplicates_and_reordering_are_distinguished(run, tmp_path):
     all_frames = list(frames.heartbeats(100))
     order = [f for i, f in enumerate(all_frames) if i not in (10, 11, 50)]  # three lost
