@@ -193,7 +193,7 @@ std::string_view Vehicle::system_parameter() const noexcept { return parts_->fir
 
 std::optional<double> Vehicle::parameter(std::string_view name) const {
     const auto index = parts_->parameters.find(name);
-    return index ? std::optional(parts_->parameters.value(*index)) : std::nullopt;
+    return index ? std::optional(parts_->parameters.shortest_value(*index)) : std::nullopt;
 }
 
 std::vector<StreamReport> Vehicle::stream_reports(LinkId link) const { return parts_->streams.reports(link); }

@@ -93,7 +93,7 @@ public:
     [[nodiscard]] std::vector<std::string_view> parameter_names() const;
     // The parameter that holds the system id.
     [[nodiscard]] std::string_view system_parameter() const noexcept;
-    // Empty if there is no parameter of this name.
+    // Empty if there is no parameter of this name. A 32-bit float comes with the fewest digits that stand for it.
     [[nodiscard]] std::optional<double> parameter(std::string_view name) const;
     // One row for each stream of an open link.
     [[nodiscard]] std::vector<StreamReport> stream_reports(LinkId link) const;

@@ -2,7 +2,9 @@
 #include "flight/firmware/parameters.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -45,6 +47,15 @@ std::optional<ParamIndex> Parameters::find(std::string_view name) const noexcept
 double Parameters::value(ParamIndex index) const noexcept {
     if (infos_[index].type == ParamType::real32) return double{std::bit_cast<float>(bits_[index])};
     return static_cast<std::int32_t>(bits_[index]);
+}
+
+double Parameters::shortest_value(ParamIndex index) const noexcept {
+    double value = this->value(index);
+    if (infos_[index].type != ParamType::real32) return value;
+    std::array<char, 32> text;
+    const char* const end = std::to_chars(text.data(), text.data() + text.size(), static_cast<float>(value)).ptr;
+    std::from_chars(text.data(), end, value);
+    return value;
 }
 
 void Parameters::set(ParamIndex index, double value) noexcept { bits_[index] = bits_of(infos_[index].type, value); }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -20,23 +21,25 @@ struct ParamRange {
 };
 [[nodiscard]] ParamRange range_of(ParamType type) noexcept;
 
-// A parameter value with a name, such as a mode.
+// A parameter value with a name, such as a mode; or the number of a bit, with what it stands for.
 struct ParamChoice {
     int value = 0;
     std::string_view name;
 };
 
+inline constexpr double unbounded = std::numeric_limits<double>::infinity();
+
 struct ParamInfo {
     std::string_view name;  // at most 16 characters
     ParamType type = ParamType::real32;
     double initial = 0;
-    double minimum = 0, maximum = 0;  // for display; both 0: no range. Values outside are stored too.
+    double minimum = -unbounded, maximum = unbounded;  // for display. Values outside are stored too.
     std::string_view unit{}, group{}, summary{};
     std::uint8_t decimals = 0;
     bool is_volatile = false;  // changes by itself; not part of the checksum
     bool is_read_only = false;
     bool needs_reboot = false;
-    std::span<const ParamChoice> choices{};
+    std::span<const ParamChoice> choices{}, bit_names{};
 };
 
 using ParamIndex = std::uint16_t;
@@ -52,6 +55,8 @@ public:
 
     // Integers up to 32 bits are exact.
     [[nodiscard]] double value(ParamIndex index) const noexcept;
+    // The value with the fewest digits: 0.15 instead of 0.15000000596046448, the same 32-bit float.
+    [[nodiscard]] double shortest_value(ParamIndex index) const noexcept;
     // The four bytes of the value: a 32-bit integer (also for smaller integer types), or a float.
     [[nodiscard]] std::uint32_t bits(ParamIndex index) const noexcept { return bits_[index]; }
     void set_bits(ParamIndex index, std::uint32_t bits) noexcept { bits_[index] = bits; }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "sim/metadata/documents.hpp"
 
-#include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "flight/firmware/firmware.hpp"
-#include "mavloom/msg/enums/mav_type.hpp"
 #include "sim/metadata/event_catalog.hpp"
 
 namespace mavloom::sim {
@@ -16,9 +15,10 @@ using Json = nlohmann::json;
 
 std::string text(std::string_view view) { return std::string(view); }
 
-// A whole number without a decimal point, for integer parameters.
+// A whole number without a decimal point, for integer parameters. A float's value is not rounded to 32 bits: it then
+// has the digits of the table, such as 0.15.
 Json number(const ParamInfo& info, double value) {
-    if (info.type == ParamType::real32) return static_cast<float>(value);
+    if (info.type == ParamType::real32) return value;
     return static_cast<std::int64_t>(value);
 }
 
@@ -32,6 +32,13 @@ std::string type_name(ParamType type) {
     return "Float";
 }
 
+Json choices(std::string_view key, std::span<const flight::ParamChoice> list) {
+    Json entries = Json::array();
+    for (const flight::ParamChoice& choice : list)
+        entries.push_back({{std::string(key), choice.value}, {"description", choice.name}});
+    return entries;
+}
+
 Json parameter(const ParamInfo& info) {
     Json entry{{"name", info.name},
                {"type", type_name(info.type)},
@@ -39,14 +46,14 @@ Json parameter(const ParamInfo& info) {
                {"category", "Standard"},
                {"group", info.group.empty() ? "Miscellaneous" : text(info.group)},
                {"shortDesc", info.summary.empty() ? text(info.name) : text(info.summary)}};
-    if (info.minimum != 0 || info.maximum != 0) {
-        entry["min"] = number(info, info.minimum);
-        entry["max"] = number(info, info.maximum);
-    }
+    if (std::isfinite(info.minimum)) entry["min"] = number(info, info.minimum);
+    if (std::isfinite(info.maximum)) entry["max"] = number(info, info.maximum);
     if (!info.unit.empty()) entry["units"] = text(info.unit);
     if (info.type == ParamType::real32 && info.decimals != 0) entry["decimalPlaces"] = info.decimals;
     if (info.is_volatile) entry["volatile"] = true;
     if (info.needs_reboot) entry["rebootRequired"] = true;
+    if (!info.choices.empty()) entry["values"] = choices("value", info.choices);
+    if (!info.bit_names.empty()) entry["bitmask"] = choices("index", info.bit_names);
     return entry;
 }
 
@@ -113,30 +120,6 @@ std::string event_document(const Firmware& firmware) {
                    {"supported_protocols", Json::array({"health_and_arming_check"})},
                    {"navigation_mode_groups", {{"groups", navigation_mode_groups(firmware)}}}};
     return Json{{"version", 2}, {"components", {{"1", std::move(autopilot)}}}}.dump();
-}
-
-// Functions that outputs may have. The simulated mixer cannot be configured, so there are no outputs or geometries to
-// choose from.
-std::string actuator_document(const Firmware& firmware) {
-    const int motors = firmware.mav_type() == msg::MAV_TYPE_QUADROTOR ? 4 : 1;
-    constexpr int first_motor = 101, first_servo = 201, servos = 4;
-    Json functions{{"0", {{"label", "Disabled"}}}};
-    for (int i = 0; i < motors; ++i)
-        functions[std::to_string(first_motor + i)] = {{"label", "Motor " + std::to_string(i + 1)}};
-    for (int i = 0; i < servos; ++i)
-        functions[std::to_string(first_servo + i)] = {{"label", "Servo " + std::to_string(i + 1)}};
-    const Json types{{"DEFAULT", {{"values", {{"min", -1}, {"max", 1}, {"default", -1}}}}},
-                     {"motor",
-                      {{"label-index-offset", 1},
-                       {"function-min", first_motor},
-                       {"function-max", first_motor + motors - 1},
-                       {"values", {{"min", 0}, {"max", 1}, {"default", 0}, {"default-is-nan", true}}},
-                       {"per-item-parameters", Json::array()}}}};
-    return Json{{"version", 1},
-                {"functions_v1", std::move(functions)},
-                {"outputs_v1", Json::array()},
-                {"mixer_v1", {{"actuator-types", types}, {"config", Json::array()}}}}
-        .dump();
 }
 
 }  // namespace mavloom::sim

@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <limits>
+#include <set>
+#include <sstream>
 
 #include "flight/firmware/firmware.hpp"
+#include "flight/firmware/param_tables/table.hpp"
 
 namespace mavloom::flight {
 namespace {
@@ -119,9 +123,10 @@ void expect_well_formed(const ParamInfo& row, Autopilot autopilot) {
     SCOPED_TRACE(row.name);
     const auto [lowest, highest] = range_of(row.type);
     EXPECT_LE(row.name.size(), 16u);
-    EXPECT_FALSE(row.summary.empty());
-    EXPECT_FALSE(row.group.empty());
-    EXPECT_TRUE(row.maximum <= row.minimum || (row.initial >= row.minimum && row.initial <= row.maximum));
+    EXPECT_EQ(row.group.empty(), autopilot == Autopilot::ardupilot) << "only PX4 describes its parameters";
+    EXPECT_LT(row.minimum, row.maximum);
+    EXPECT_TRUE(row.initial >= row.minimum && row.initial <= row.maximum);
+    EXPECT_TRUE(row.choices.empty() || row.bit_names.empty());
     EXPECT_TRUE(row.type == ParamType::real32 || row.initial == std::round(row.initial));
     EXPECT_TRUE(row.initial >= lowest && row.initial <= highest);
     EXPECT_TRUE(autopilot == Autopilot::ardupilot || row.type == ParamType::real32 || row.type == ParamType::int32);
@@ -131,10 +136,53 @@ TEST(Firmware, TablesOfParametersAreWellFormed) {
     for (const Autopilot autopilot : all_autopilots) {
         for (const Kind kind : all_kinds) {
             const auto rows = Firmware::of(autopilot, kind).parameters();
-            EXPECT_GE(rows.size(), 120u);
+            EXPECT_GE(rows.size(), 800u);
             for (const ParamInfo& row : rows) expect_well_formed(row, autopilot);
             EXPECT_EQ(std::ranges::adjacent_find(rows, std::greater_equal{}, &ParamInfo::name), rows.end());
         }
+    }
+}
+
+TEST(Firmware, NamesWithBracesStandForFamilies) {
+    EXPECT_THAT(expanded("WP_SPEED"), testing::ElementsAre("WP_SPEED"));
+    EXPECT_THAT(expanded("RC{9..11}_MIN"), testing::ElementsAre("RC9_MIN", "RC10_MIN", "RC11_MIN"));
+    EXPECT_THAT(expanded("INS_ACC{,2}_{X,Y}"),
+                testing::ElementsAre("INS_ACC_X", "INS_ACC_Y", "INS_ACC2_X", "INS_ACC2_Y"));
+}
+
+// Ground stations ask for these names; tests/data/client_parameters.tsv names its sources.
+TEST(Firmware, HasTheParametersThatClientsAskFor) {
+    std::ifstream file(MAVLOOM_TEST_DATA "/client_parameters.tsv");
+    int names = 0;
+    for (std::string line; std::getline(file, line);) {
+        if (line.starts_with('#')) continue;
+        std::istringstream columns(line);
+        std::string firmware, name, kinds;
+        columns >> firmware >> name >> kinds;
+        const Autopilot autopilot = firmware == "px4" ? Autopilot::px4 : Autopilot::ardupilot;
+        constexpr std::string_view kind_names[] = {"quad", "plane", "rover"};
+        for (const Kind kind : all_kinds) {
+            const std::string_view kind_name = kind_names[static_cast<std::size_t>(kind)];
+            if (kinds.find(kind_name) == std::string::npos) continue;
+            EXPECT_TRUE(Parameters(Firmware::of(autopilot, kind).parameters()).find(name)) << kind_name << " " << name;
+        }
+        ++names;
+    }
+    EXPECT_GT(names, 700);
+}
+
+// QGroundControl's own rules for what is set up (setupComplete of its pages).
+TEST(Firmware, VehiclesAreSetUp) {
+    for (const Kind kind : all_kinds) {
+        const Parameters px4(Firmware::of(Autopilot::px4, kind).parameters());
+        for (const char* const id : {"CAL_ACC0_ID", "CAL_GYRO0_ID", "CAL_MAG0_ID", "SYS_AUTOSTART", "BAT1_N_CELLS"})
+            EXPECT_NE(px4.get(id), 0) << id;
+        const Parameters ardupilot(Firmware::of(Autopilot::ardupilot, kind).parameters());
+        for (const char* const id : {"COMPASS_OFS_X", "COMPASS_OFS2_Y", "COMPASS_OFS3_Z", "INS_ACCOFFS_X", "INS_ACC_ID",
+                                     "COMPASS_DEV_ID3", "INS_ACC2_ID", "RCMAP_ROLL"})
+            EXPECT_NE(ardupilot.get(id), 0) << id;
+        EXPECT_TRUE(kind == Kind::plane || ardupilot.get("FRAME_CLASS") != 0);
+        EXPECT_NE(ardupilot.get("RC1_MIN"), 1100) << "1100, 1500 and 1900 mean an uncalibrated remote control";
     }
 }
 
@@ -215,6 +263,19 @@ TEST(Parameters, HashLeavesOutWhatTheVehicleChangesItself) {
     EXPECT_EQ(parameters.hash(), 0x2507248bu);
     parameters.put("NAV_DLL_ACT", 0);
     EXPECT_NE(parameters.hash(), 0x2507248bu);
+}
+
+TEST(Parameters, HaveTheirShortestValue) {
+    constexpr ParamInfo infos[] = {{.name = "A", .initial = 0.15}, {.name = "B", .type = ParamType::int32}};
+    Parameters parameters(infos);
+    EXPECT_EQ(parameters.value(0), double{0.15f});
+    EXPECT_EQ(parameters.shortest_value(0), 0.15);
+    parameters.set(0, 1.0 / 3);
+    EXPECT_EQ(parameters.shortest_value(0), 0.33333334);
+    parameters.set(0, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(parameters.shortest_value(0), std::numeric_limits<double>::infinity());
+    parameters.set(1, -2147483648.0);
+    EXPECT_EQ(parameters.shortest_value(1), -2147483648.0);
 }
 
 TEST(Parameters, KeepIntegersInTheRangeOfTheirType) {

@@ -146,9 +146,8 @@ TEST(ParameterService, HashIsTheChecksumOfTheList) {
     Rig rig;
     rig.send(list_request);
     rig.run(2.0);
-    const std::set<std::string> changing{"COM_FLIGHT_UUID", "EKF2_MAGBIAS_X",   "EKF2_MAGBIAS_Y",
-                                         "EKF2_MAGBIAS_Z",  "EKF2_MAG_DECL",    "LND_FLIGHT_T_HI",
-                                         "LND_FLIGHT_T_LO", "SYS_RESTART_TYPE", "SENS_DPRES_OFF"};
+    const std::set<std::string> changing{"COM_FLIGHT_UUID", "EKF2_MAG_DECL", "LND_FLIGHT_T_HI", "LND_FLIGHT_T_LO",
+                                         "SENS_DPRES_OFF"};
     std::uint32_t crc = 0;
     const auto add = [&crc](unsigned char byte) {
         crc ^= byte;
@@ -157,8 +156,10 @@ TEST(ParameterService, HashIsTheChecksumOfTheList) {
     const auto values = rig.all<msg::ParamValue>();
     for (std::size_t i = 1; i < values.size(); ++i) {
         const std::string name = name_in(values[i]);
-        const bool is_calibration = name.starts_with("CAL_") && name.ends_with("OFF");
-        if (changing.contains(name) || is_calibration) continue;
+        const bool is_calibration = name.starts_with("CAL_") && (name.ends_with("OFF") || name.ends_with("SCALE") ||
+                                                                 name.ends_with("COMP") || name.ends_with("DIAG"));
+        const bool is_mode = name.starts_with("COM_MODE") && name.ends_with("_HASH");
+        if (changing.contains(name) || is_calibration || is_mode) continue;
         for (const char c : name) add(static_cast<unsigned char>(c));
         for (int shift = 0; shift < 32; shift += 8)
             add(static_cast<unsigned char>(std::bit_cast<std::uint32_t>(values[i].param_value) >> shift));

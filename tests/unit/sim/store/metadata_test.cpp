@@ -76,9 +76,9 @@ TEST(Metadata, DescribesEveryParameter) {
     const Json json = json_of("parameters");
     EXPECT_EQ(json["version"], 1);
     const std::set<std::string> types{"Int8", "Int16", "Int32", "Float"};
-    const std::set<std::string> known{"name",      "type",           "default",      "category", "group",
-                                      "shortDesc", "longDesc",       "min",          "max",      "units",
-                                      "volatile",  "rebootRequired", "decimalPlaces"};
+    const std::set<std::string> known{"name",      "type",           "default",       "category", "group",
+                                      "shortDesc", "longDesc",       "min",           "max",      "units",
+                                      "volatile",  "rebootRequired", "decimalPlaces", "values",   "bitmask"};
     std::set<std::string> names;
     for (const Json& entry : json["parameters"]) {
         names.insert(entry.at("name").get<std::string>());
@@ -142,13 +142,67 @@ TEST(Metadata, EventsOfTheCatalogAreUnique) {
     for (const EventText& text : event_texts()) EXPECT_TRUE(ids.contains(text.id)) << text.text;
 }
 
-TEST(Metadata, ActuatorsNameTheMotors) {
+const Json& entry_of(const Json& parameters, std::string_view name) {
+    return *std::ranges::find_if(parameters, [&](const Json& entry) { return entry["name"] == name; });
+}
+
+// PX4 1.17 has names of values for 204 of a quad's parameters, and names of bits for 17.
+TEST(Metadata, NamesValuesAndBits) {
+    const Json parameters = json_of("parameters")["parameters"];
+    EXPECT_EQ(std::ranges::count_if(parameters, [](const Json& entry) { return entry.contains("values"); }), 204);
+    EXPECT_EQ(std::ranges::count_if(parameters, [](const Json& entry) { return entry.contains("bitmask"); }), 17);
+    EXPECT_EQ(entry_of(parameters, "RC_MAP_KILL_SW")["values"][5], (Json{{"value", 5}, {"description", "Channel 5"}}));
+    EXPECT_EQ(entry_of(parameters, "COM_RCL_EXCEPT")["bitmask"][2], (Json{{"index", 2}, {"description", "Offboard"}}));
+}
+
+TEST(Metadata, NumbersAreShortAndRangesMayBeOpen) {
+    const Json parameters = json_of("parameters")["parameters"];
+    EXPECT_EQ(entry_of(parameters, "BAT_LOW_THR")["default"].dump(), "0.15");
+    const Json& distance = entry_of(parameters, "RTL_MIN_DIST");
+    EXPECT_EQ(distance["min"], 0.5);
+    EXPECT_FALSE(distance.contains("max"));
+}
+
+// The page of QGroundControl is empty without outputs, a geometry, and the parameters that these name.
+TEST(Metadata, ActuatorsHaveOutputsAndAGeometry) {
     const Json json = json_of("actuators");
     EXPECT_EQ(json["version"], 1);
     EXPECT_EQ(json["functions_v1"]["101"]["label"], "Motor 1");
-    EXPECT_EQ(json["functions_v1"]["104"]["label"], "Motor 4");
-    EXPECT_TRUE(json["outputs_v1"].is_array());
-    EXPECT_TRUE(json["mixer_v1"]["config"].is_array());
+    EXPECT_EQ(json["functions_v1"]["201"]["label"], "Servo 1");
+    const Json& outputs = json["outputs_v1"][0]["subgroups"][0];
+    EXPECT_EQ(outputs["channels"].size(), 16u);
+    EXPECT_EQ(outputs["channels"][15], (Json{{"label", "Channel 16"}, {"param-index", 16}}));
+    const Json& geometry = json["mixer_v1"]["config"][0];
+    EXPECT_EQ(geometry["option"], "CA_AIRFRAME==0");
+    EXPECT_EQ(geometry["actuators"][0]["count"], "CA_ROTOR_COUNT");
+    EXPECT_EQ(geometry["actuators"][0]["per-item-parameters"].size(), 7u);
+}
+
+void expect_parameters(const Json& list, std::string_view index, const Firmware& firmware) {
+    const flight::Parameters parameters(firmware.parameters());
+    for (const Json& item : list) {
+        if (!item.contains("name")) continue;
+        std::string name = item["name"];
+        if (const auto at = name.find("${i}"); at != std::string::npos) name.replace(at, 4, index);
+        EXPECT_TRUE(parameters.find(name)) << name;
+    }
+}
+
+TEST(Metadata, ActuatorsNameOnlyParametersThatTheVehicleHas) {
+    for (const Kind kind : {Kind::quad, Kind::plane, Kind::rover}) {
+        const Firmware& firmware = Firmware::of(Autopilot::px4, kind);
+        const Json json = json_of("actuators", firmware);
+        expect_parameters(json["outputs_v1"][0]["subgroups"][0]["per-channel-parameters"], "16", firmware);
+        for (const Json& type : json["mixer_v1"]["actuator-types"])
+            expect_parameters(type.value("per-item-parameters", Json::array()), "0", firmware);
+        ASSERT_EQ(json["mixer_v1"]["config"].size(), 1u);
+        for (const Json& actuator : json["mixer_v1"]["config"][0]["actuators"]) {
+            EXPECT_TRUE(actuator["count"].is_number() ||
+                        flight::Parameters(firmware.parameters()).find(actuator["count"].get<std::string>()));
+            expect_parameters(actuator["per-item-parameters"], "0", firmware);
+        }
+        EXPECT_FALSE(json["mixer_v1"]["config"][0]["actuators"].empty());
+    }
 }
 
 }  // namespace

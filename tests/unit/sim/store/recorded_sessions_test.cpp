@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <fstream>
 #include <map>
 
@@ -22,6 +23,7 @@
 #include "mavloom/msg/mission_item_int.hpp"
 #include "mavloom/msg/mission_request_int.hpp"
 #include "mavloom/msg/param_error.hpp"
+#include "mavloom/msg/param_request_list.hpp"
 #include "mavloom/msg/param_value.hpp"
 #include "mavloom/msg/ping.hpp"
 #include "mavloom/msg/statustext.hpp"
@@ -186,6 +188,36 @@ TEST(RecordedSessions, GroundStationThatAsksForEachService) {
     for (const char* service : {"commands", "parameters", "plans", "files", "logs", "time", "texts", "events"})
         EXPECT_TRUE(session.expected.contains(service)) << service;
     compare(session, {{"parameters", "PARAM_VALUE", "PX4 broadcasts a value that was set twice, 9 ms apart"}});
+}
+
+// Types and first values by name; values of integers as PARAM_VALUE has them, byte by byte.
+std::map<std::string, std::pair<int, std::uint32_t>> list_of(const auto& frames) {
+    std::map<std::string, std::pair<int, std::uint32_t>> list;
+    for (const auto& each : frames) {
+        if (each.frame().id() != ParamValue::id) continue;
+        const auto value = ParamValue::decode(each.frame().payload());
+        list.try_emplace(text_of(value.param_id), value.param_type, std::bit_cast<std::uint32_t>(value.param_value));
+    }
+    return list;
+}
+
+// Names, types and values, so that the checksum over them is PX4's too.
+TEST(RecordedSessions, ParametersAreThoseOfPx4) {
+    auto recorded = list_of(read_recording("px4_gcs_session.tlog"));
+    ASSERT_EQ(recorded.size(), 953u);
+    ASSERT_TRUE(recorded.contains("_HASH_CHECK"));
+    Rig rig;
+    rig.send(ParamRequestList{.target_system = 1});
+    rig.run(2.0);
+    auto got = list_of(rig.sink.frames);
+    // The vehicle maintains these by itself.
+    for (const char* const name : {"COM_FLIGHT_UUID", "EKF2_MAG_DECL", "LND_FLIGHT_T_HI", "LND_FLIGHT_T_LO"}) {
+        EXPECT_EQ(recorded[name].first, got[name].first) << name;
+        recorded.erase(name);
+        got.erase(name);
+    }
+
+    EXPECT_EQ(got, recorded);
 }
 
 constexpr double booted_at_once = 0.06;
