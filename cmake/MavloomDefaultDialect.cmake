@@ -1,7 +1,7 @@
 # Module dialect in its parts, and the default dialect made from dialects/all.xml.
 #   mavloom::dialect_core     records, layout, XML reader; needs no tables, so that the generator can be built from it
 #   mavloom::dialectgen       the generator, a program
-#   mavloom::dialect_builtin  the tables behind default_dialect()
+#   mavloom::dialect_builtin  the tables behind default_dialect(), and the public files for includes
 #   mavloom::messages         the headers mavloom/msg/*.hpp
 # `mavloom::dialect` (mavloom_module) links the first and the third.
 include(MavloomDialect)
@@ -20,14 +20,16 @@ add_executable(mavloom_dialectgen ${generator_sources})
 add_executable(mavloom::dialectgen ALIAS mavloom_dialectgen)
 set_target_properties(mavloom_dialectgen PROPERTIES EXPORT_NAME dialectgen)
 target_compile_options(mavloom_dialectgen PRIVATE ${mavloom_cold_flags})
+target_include_directories(mavloom_dialectgen PRIVATE "${PROJECT_SOURCE_DIR}/src")
 target_link_libraries(mavloom_dialectgen PRIVATE mavloom_dialect_core $<BUILD_INTERFACE:mavloom_warnings>)
 
 set(generated "${PROJECT_BINARY_DIR}/generated")
 _mavloom_generate_dialect("${PROJECT_SOURCE_DIR}/dialects/all.xml" mavloom::msg "${generated}" --builtin)
-add_library(mavloom_dialect_builtin ${tables})
+add_library(mavloom_dialect_builtin ${tables} "${PROJECT_SOURCE_DIR}/src/dialect/builtin/load.cpp")
 add_library(mavloom::dialect_builtin ALIAS mavloom_dialect_builtin)
 set_target_properties(mavloom_dialect_builtin PROPERTIES EXPORT_NAME dialect_builtin
                       POSITION_INDEPENDENT_CODE ON CXX_CLANG_TIDY "")
+target_include_directories(mavloom_dialect_builtin PRIVATE "${PROJECT_SOURCE_DIR}/src")
 target_link_libraries(mavloom_dialect_builtin PUBLIC mavloom_dialect_core)
 target_link_libraries(mavloom_dialect INTERFACE mavloom_dialect_builtin mavloom_dialect_core)
 

@@ -2,11 +2,17 @@
 #
 # A library `<target>` from MAVLink definitions: `#include "acme/msg/attitude.hpp"` gives `acme::msg::Attitude`,
 # `acme/msg/enums/mav_type.hpp` an enum, `acme/msg/dialect.hpp` the function `acme::msg::dialect()`. NAMESPACE defaults
-# to `<name of the file>::msg`. Works in this tree and behind find_package(mavloom). A change of the file, or of one
-# that it includes, builds again what depends on it.
+# to `<name of the file>::msg`. Works in this tree and behind find_package(mavloom). An included file that does not
+# exist is taken from Mavloom's public definitions, if it is one of these. A change of the file, or of one that it
+# includes, builds again what depends on it.
+# The public definitions: in this tree, or where they are installed (mavloomConfig.cmake).
+if(NOT DEFINED mavloom_DIALECTS_DIR)
+  file(REAL_PATH "${CMAKE_CURRENT_LIST_DIR}/../dialects" mavloom_DIALECTS_DIR)
+endif()
 
 # The files that `xml` includes, itself first, and the names of messages and enums: the inputs and outputs of the
-# generator must be known before it runs. Comments are cut out first. The generator reports malformed files.
+# generator must be known before it runs. Comments are cut out first. The generator reports malformed files. A public
+# file looks for its own includes beside the file that it replaces, as in the generator.
 function(_mavloom_scan_dialect xml out_files out_messages out_enums)
   set(queue "${xml}")
   set(files "")
@@ -14,6 +20,11 @@ function(_mavloom_scan_dialect xml out_files out_messages out_enums)
   set(enums "")
   while(queue)
     list(POP_FRONT queue file)
+    get_filename_component(folder "${file}" DIRECTORY)
+    if(NOT EXISTS "${file}")
+      get_filename_component(name "${file}" NAME)
+      set(file "${mavloom_DIALECTS_DIR}/${name}")
+    endif()
     file(REAL_PATH "${file}" file)
     if(file IN_LIST files OR NOT EXISTS "${file}")
       continue()
@@ -21,7 +32,6 @@ function(_mavloom_scan_dialect xml out_files out_messages out_enums)
     list(APPEND files "${file}")
     file(READ "${file}" text)
     string(REGEX REPLACE "<!--([^-]|-[^-])*-->" "" text "${text}")
-    get_filename_component(folder "${file}" DIRECTORY)
     string(REGEX MATCHALL "<include>[^<]*</include>" includes "${text}")
     foreach(include IN LISTS includes)
       string(REGEX REPLACE "</?include>" "" include "${include}")
@@ -56,7 +66,11 @@ function(_mavloom_generate_dialect xml namespace out options)
     list(APPEND headers "${folder}/dialect.hpp")
   endif()
   set(tables "${out}/tables/enums.cpp" "${out}/tables/messages.cpp")
-  set(generate "$<TARGET_FILE:mavloom::dialectgen>" "${xml}" --out "${out}" --namespace "${namespace}" ${options})
+  if("--builtin" IN_LIST options)
+    list(APPEND tables "${out}/tables/files.cpp")
+  endif()
+  set(generate "$<TARGET_FILE:mavloom::dialectgen>" "${xml}" --out "${out}" --namespace "${namespace}"
+               --public "${mavloom_DIALECTS_DIR}" ${options})
   get_filename_component(name "${xml}" NAME)
   add_custom_command(OUTPUT ${tables} BYPRODUCTS "${out}/tables/tables.hpp" COMMAND ${generate} --part tables
                      DEPENDS ${files} mavloom::dialectgen COMMENT "Tables of ${name}" VERBATIM)

@@ -7,17 +7,21 @@
 #include <string>
 #include <string_view>
 
+#include "dialect/core/loader.hpp"
 #include "generate.hpp"
+#include "public_folder.hpp"
 
 namespace {
 
 using namespace mavloom;
 
 constexpr std::string_view usage =
-    "usage: mavloom_dialectgen FILE.xml --out DIR --namespace NS [--part tables|headers] [--stamp FILE] [--builtin]\n";
+    "usage: mavloom_dialectgen FILE.xml --out DIR --namespace NS [--public DIR] [--part tables|headers] [--stamp FILE] "
+    "[--builtin]\n";
 
 struct Arguments {
     std::string xml, part, stamp;
+    std::string public_folder;  // of public definitions, for includes
     dialectgen::Options options;
 };
 
@@ -32,6 +36,8 @@ std::optional<Arguments> parse(int argc, char** argv) {
             arguments.options.out = argv[++i];
         } else if (word == "--namespace" && has_value) {
             arguments.options.cpp_namespace = argv[++i];
+        } else if (word == "--public" && has_value) {
+            arguments.public_folder = argv[++i];
         } else if (word == "--part" && has_value) {
             arguments.part = argv[++i];
         } else if (word == "--stamp" && has_value) {
@@ -56,12 +62,20 @@ SetupResult<void> touch(const std::string& stamp) {
 }
 
 SetupResult<void> generate(const Arguments& arguments) {
-    const auto loaded = dialect::Dialect::load(arguments.xml);
-    if (!loaded) return tl::unexpected(loaded.error());
+    const auto folder = dialectgen::PublicFolder::read(arguments.public_folder);
+    if (!folder) return tl::unexpected(folder.error());
+    dialect::Records records;
+    auto definitions = dialect::read_with_includes(arguments.xml, folder->files(), records);
+    if (!definitions) return tl::unexpected(std::move(definitions.error()));
+    if (auto merged = dialect::merge(std::move(*definitions), records); !merged) return merged;
+    const auto name = std::filesystem::path(arguments.xml).stem().string();
+    const dialect::Dialect loaded(name, records.messages, records.enums);
     if (arguments.part != "headers")
-        if (auto written = dialectgen::write_tables(*loaded, arguments.options); !written) return written;
+        if (auto written = dialectgen::write_tables(loaded, arguments.options); !written) return written;
+    if (arguments.part != "headers" && arguments.options.is_builtin)
+        if (auto written = dialectgen::write_files(*folder, arguments.options); !written) return written;
     if (arguments.part != "tables")
-        if (auto written = dialectgen::write_headers(*loaded, arguments.options); !written) return written;
+        if (auto written = dialectgen::write_headers(loaded, arguments.options); !written) return written;
     return touch(arguments.stamp);
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <deque>
 #include <iterator>
 #include <set>
@@ -21,7 +22,8 @@ void append(std::vector<T>& to, std::vector<T>& from) {
 
 class IncludeWalk {
 public:
-    explicit IncludeWalk(Records& records) : records_(records) {}
+    IncludeWalk(std::span<const PublicFile> public_files, Records& records)
+        : public_files_(public_files), records_(records) {}
 
     SetupResult<FileDefinitions> run(const fs::path& top) {
         enqueue(top, {});
@@ -35,17 +37,26 @@ public:
 private:
     struct Step {
         fs::path path;
-        Place from;  // the <include> element; empty for the top file
+        Place from;                           // the <include> element; empty for the top file
+        const PublicFile* instead = nullptr;  // in place of the file at `path`, which does not exist
     };
 
     void enqueue(fs::path path, Place from) {
         std::error_code ignored;  // reading an unresolvable path will fail later
-        auto resolved = fs::weakly_canonical(path, ignored);
-        if (seen_.insert(ignored ? path : resolved).second) queue_.push_back({std::move(path), from});
+        const bool is_missing = fs::status(path, ignored).type() == fs::file_type::not_found;
+        const PublicFile* const instead = is_missing && !from.file.empty() ? public_file(path) : nullptr;
+        auto resolved = instead != nullptr ? fs::path(instead->name) : fs::weakly_canonical(path, ignored);
+        if (seen_.insert(ignored ? path : resolved).second) queue_.push_back({std::move(path), from, instead});
+    }
+
+    [[nodiscard]] const PublicFile* public_file(const fs::path& path) const {
+        const auto found = std::ranges::find(public_files_, path.filename().string(), &PublicFile::name);
+        return found == public_files_.end() ? nullptr : &*found;
     }
 
     SetupResult<void> read_one(const Step& step) {
-        auto file = SourceFile::read(step.path);
+        auto file = step.instead != nullptr ? SourceFile::parse(step.instead->text, std::string(step.instead->name))
+                                            : SourceFile::read(step.path);
         if (!file) return unreadable(step, std::move(file.error()));
         bytes_ += file->size_bytes();
         if (++files_ > max_files || bytes_ > max_total_bytes) {
@@ -67,11 +78,12 @@ private:
         if (step.from.file.empty() || error.code == SetupCode::bad_input) return tl::unexpected(std::move(error));
         return setup_error(
             SetupCode::bad_input,
-            fmt::format("{}: cannot include {}; expected a file beside the including one (copy the public "
-                        "definitions from share/mavloom/dialects)",
+            fmt::format("{}: cannot include {}; expected a file beside the including one, or the name of a public one, "
+                        "such as common.xml",
                         step.from.text(), error.text));
     }
 
+    std::span<const PublicFile> public_files_;
     Records& records_;
     FileDefinitions all_;
     std::deque<Step> queue_;
@@ -81,18 +93,9 @@ private:
 
 }  // namespace
 
-SetupResult<FileDefinitions> read_with_includes(const fs::path& top, Records& records) {
-    return IncludeWalk(records).run(top);
-}
-
-SetupResult<Dialect> Dialect::load(const fs::path& xml) {
-    auto storage = std::make_shared<Storage>();
-    auto definitions = read_with_includes(xml, *storage);
-    if (!definitions) return tl::unexpected(std::move(definitions.error()));
-    if (auto merged = merge(std::move(*definitions), *storage); !merged)
-        return tl::unexpected(std::move(merged.error()));
-    const auto name = storage->intern(xml.stem().string());
-    return Dialect(name, std::move(storage));
+SetupResult<FileDefinitions> read_with_includes(const fs::path& top, std::span<const PublicFile> public_files,
+                                                Records& records) {
+    return IncludeWalk(public_files, records).run(top);
 }
 
 }  // namespace mavloom::dialect

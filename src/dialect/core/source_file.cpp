@@ -44,14 +44,17 @@ SetupResult<SourceFile> SourceFile::read(const std::filesystem::path& path) {
         return setup_error(SetupCode::bad_input, fmt::format("{}: too long; expected at most {} MiB of definitions",
                                                              path.string(), max_bytes >> 20));
     }
+    return parse(*text, path.string());
+}
+
+SetupResult<SourceFile> SourceFile::parse(std::string_view text, std::string shown) {
     SourceFile file;
-    file.shown_ = path.string();
-    file.size_bytes_ = text->size();
-    for (std::size_t at = text->find('\n'); at != std::string::npos; at = text->find('\n', at + 1))
+    file.shown_ = std::move(shown);
+    file.size_bytes_ = text.size();
+    for (std::size_t at = text.find('\n'); at != std::string_view::npos; at = text.find('\n', at + 1))
         file.line_ends_.push_back(static_cast<std::ptrdiff_t>(at));
     file.document_ = std::make_unique<pugi::xml_document>();
-    const auto parsed = file.document_->load_buffer(text->data(), text->size(), pugi::parse_default,
-                                                    pugi::encoding_utf8);
+    const auto parsed = file.document_->load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
     if (!parsed) {
         return setup_error(SetupCode::bad_input, fmt::format("{}:{}: {}; expected well-formed XML", file.shown_,
                                                              file.line_at(parsed.offset), parsed.description()));

@@ -22,6 +22,8 @@ public:
     // Errors: `not_found` if the file does not exist, `bad_input` if it is not a regular file, too long or not
     // well-formed XML. Failed system calls give their own codes.
     [[nodiscard]] static SetupResult<SourceFile> read(const std::filesystem::path& path);
+    // `shown` is the name for errors.
+    [[nodiscard]] static SetupResult<SourceFile> parse(std::string_view text, std::string shown);
 
     [[nodiscard]] const std::string& shown() const noexcept { return shown_; }  // the path, as shown in errors
     [[nodiscard]] std::size_t size_bytes() const noexcept { return size_bytes_; }

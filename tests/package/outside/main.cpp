@@ -8,6 +8,7 @@
 #include "mavloom/wire/frame_writer.hpp"
 #include "shop/msg/dialect.hpp"
 #include "shop/msg/enums/shelf_state.hpp"
+#include "shop/msg/heartbeat.hpp"
 #include "shop/msg/shelf_names.hpp"
 #include "shop/msg/shelf_status.hpp"
 
@@ -34,6 +35,7 @@ bool names_are_members() {
 int main() {
     if (!names_are_members()) return 2;
     const auto& dialect = shop::msg::dialect();
+    if (dialect.find(shop::msg::Heartbeat::id) == nullptr) return 1;  // of minimal.xml, which is not beside shop.xml
     bool same = false;
 
     mavloom::wire::DatagramParser parser(dialect.wire_table());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a malformed file gets: file, line, what is wrong and what was expected. One test per kind of fault.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -43,8 +44,22 @@ TEST(ReaderErrors, MissingIncludeNamesTheIncludingLine) {
     EXPECT_EQ(folder.load().error().code, SetupCode::bad_input);
     EXPECT_EQ(
         folder.error(),
-        "a.xml:3: cannot include sub/none.xml: no such file; expected a file beside the including one (copy the public "
-        "definitions from share/mavloom/dialects)");
+        "a.xml:3: cannot include sub/none.xml: no such file; expected a file beside the including one, or the name "
+        "of a public one, such as common.xml");
+}
+
+TEST(ReaderErrors, AClashWithAPublicFileNamesBothPlaces) {
+    const XmlFolder folder;
+    folder.write("a.xml",
+                 "<mavlink><include>common.xml</include><messages>\n<message id=\"30\" name=\"MINE\">"
+                 "<field type=\"uint8_t\" name=\"a\"/></message></messages></mavlink>");
+    EXPECT_THAT(folder.error(), testing::HasSubstr("id 30 of message ATTITUDE belongs to MINE at a.xml:2"));
+    EXPECT_THAT(folder.error(), testing::StartsWith("common.xml:"));
+}
+
+TEST(ReaderErrors, APublicFileIsNoTopFile) {
+    const XmlFolder folder;
+    EXPECT_EQ(folder.error("common.xml"), "common.xml: no such file");
 }
 
 TEST(ReaderErrors, MalformedXmlNamesTheLine) {

@@ -34,6 +34,32 @@ TEST(Reader, OrdersFieldsByTypeSizeAndKeepsExtensionsLast) {
     EXPECT_EQ(loaded->name(), "a");
 }
 
+TEST(Reader, TakesIncludedPublicFilesThatAreNotThereFromTheBinary) {
+    const XmlFolder folder;
+    folder.write("a.xml",
+                 "<mavlink><include>common.xml</include><enums><enum name=\"MAV_CMD\">"
+                 "<entry value=\"42999\" name=\"MAV_CMD_MINE\"/></enum></enums></mavlink>");
+    const auto loaded = folder.load();
+    ASSERT_TRUE(loaded) << loaded.error().text;
+    EXPECT_EQ(loaded->find("ATTITUDE")->origin, "common.xml");
+    EXPECT_EQ(loaded->find("HEARTBEAT")->origin, "minimal.xml") << "which common.xml includes through standard.xml";
+    EXPECT_EQ(loaded->find("AHRS"), nullptr) << "of ardupilotmega.xml";
+    EXPECT_NE(loaded->find_enum("MAV_CMD")->find("MAV_CMD_MINE"), nullptr);
+    EXPECT_EQ(loaded->find("ATTITUDE")->wire, default_dialect().find("ATTITUDE")->wire);
+}
+
+TEST(Reader, PrefersFilesBesideTheIncludingOneToPublicOnes) {
+    const XmlFolder folder;
+    folder.write("a.xml", "<mavlink><include>common.xml</include></mavlink>");
+    folder.write("standard.xml", R"(<mavlink><include>minimal.xml</include><messages><message id="50000" name="MINE">
+        <field type="uint8_t" name="a"/></message></messages></mavlink>)");
+    const auto loaded = folder.load();
+    ASSERT_TRUE(loaded) << loaded.error().text;
+    EXPECT_NE(loaded->find("MINE"), nullptr) << "which is not in the public standard.xml";
+    EXPECT_NE(loaded->find("ATTITUDE"), nullptr);
+    EXPECT_NE(loaded->find("HEARTBEAT"), nullptr);
+}
+
 TEST(Reader, KnowsAllTypes) {
     const XmlFolder folder;
     folder.write("a.xml",
