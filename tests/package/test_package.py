@@ -32,6 +32,18 @@ def installed(tmp_path_factory):
     return prefix
 
 
+def test_a_plain_install_is_a_whole_prefix_without_debug_information(tmp_path):
+    call("cmake", "--install", BUILD, "--prefix", tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["bin", "include", "lib", "share"]
+    for file in ("share/mavloom/dialects/common.xml", "share/doc/mavloom/guide/route.md", "share/doc/mavloom/LICENSE",
+                 "lib/systemd/system/mavloom-router.service", "include/mavloom/msg/attitude.hpp"):
+        assert (tmp_path / file).is_file(), file
+    assert call(tmp_path / "bin" / "mavloom", "--version").startswith("mavloom ")
+    if "CMAKE_BUILD_TYPE:STRING=Release" in (BUILD / "CMakeCache.txt").read_text():
+        for file in (tmp_path / "bin" / "mavloom", *tmp_path.glob("lib/**/libmavloom_*.a")):
+            assert b".debug_info" not in file.read_bytes(), file
+
+
 def build_outside(folder, *options):
     call("cmake", "-S", OUTSIDE, "-B", folder, "-G", "Ninja", *options)
     call("cmake", "--build", folder, "-j", str(os.cpu_count()))
