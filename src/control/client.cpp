@@ -42,6 +42,33 @@ SetupResult<std::vector<std::string>> answer_of(std::string_view text) {
     return lines;
 }
 
+bool is_served(const std::filesystem::path& path) {
+    asio::io_context context;
+    Local::socket socket(context);
+    error_code error;
+    socket.connect(Local::endpoint(path.string()), error);
+    return !error;
+}
+
+// The names of the programs whose control sockets are in the folder.
+std::vector<std::string> names_in(const std::filesystem::path& folder) {
+    std::vector<std::string> names;
+    std::error_code failed;
+    for (std::filesystem::directory_iterator file(folder, failed), end; !failed && file != end; file.increment(failed))
+        if (file->path().extension() == ".ctl" && is_served(file->path()))
+            names.push_back(file->path().stem().string());
+    std::ranges::sort(names);
+    return names;
+}
+
+SetupError no_program(std::string_view name, const std::filesystem::path& path, const error_code& error) {
+    const auto others = names_in(path.parent_path());
+    const auto hint = others.empty() ? std::string() : fmt::format("; running: {}", fmt::join(others, ", "));
+    return {SetupCode::not_found, 0,
+            fmt::format("no router or simulator called '{}' runs here ({}: {}){}", name, path.string(), error.message(),
+                        hint)};
+}
+
 }  // namespace
 
 SetupResult<std::vector<std::string>> send_request(std::string_view name, std::string_view request,
@@ -52,9 +79,7 @@ SetupResult<std::vector<std::string>> send_request(std::string_view name, std::s
     Local::socket socket(context);
     error_code error;
     socket.connect(Local::endpoint(path->string()), error);
-    if (error)
-        return setup_error(SetupCode::not_found, fmt::format("no router or simulator called '{}' runs here ({}: {})",
-                                                             name, path->string(), error.message()));
+    if (error) return tl::unexpected(no_program(name, *path, error));
     // The client shuts down its sending side, so the program closes the connection after the answer.
     std::string input, output = std::string(request) + "\n";
     bool done = false;

@@ -19,8 +19,10 @@
 #include <vector>
 
 #include "control/sessions.hpp"
+#include "mavloom/base/shown.hpp"
 #include "mavloom/base/thread.hpp"
 #include "mavloom/net/fd.hpp"
+#include "mavloom/net/port_holder.hpp"
 #include "mavloom/net/tcp.hpp"
 
 namespace mavloom::control {
@@ -257,15 +259,17 @@ private:
             error_code error;
             const auto host = asio::ip::make_address(address.host, error);
             if (error)
-                return setup_error(SetupCode::usage, fmt::format("--metrics takes a numeric address of this "
-                                                                 "machine, not '{}'",
-                                                                 address.host));
+                return setup_error(SetupCode::usage,
+                                   fmt::format("metrics: {} is not a numeric address of this machine; for example, "
+                                               "type 127.0.0.1:{}",
+                                               in_quotes(address.host), address.port));
             metrics_.open(Tcp::endpoint(host, address.port));
             metrics_port_ = metrics_.local().port();
             if (host.is_loopback()) reports_.require_local_host();
             return {};
         } catch (const boost::system::system_error& error) {
-            return error_of(fmt::format("metrics on {}:{}", address.host, address.port), error);
+            return net::bind_error(fmt::format("metrics on {}:{}", address.host, address.port), error.code().value(),
+                                   net::Transport::tcp, address.port);
         }
     }
 

@@ -7,6 +7,9 @@
 #include <array>
 #include <iterator>
 
+#include "control/metrics_help.hpp"
+#include "mavloom/base/version.hpp"
+
 namespace mavloom::control {
 
 namespace {
@@ -27,12 +30,16 @@ void MetricsText::add_total(std::string_view prefix, std::string_view name, std:
     const auto metric = fmt::format("mavloom_{}_{}_total", prefix, name);
     auto at = std::ranges::find(families_, metric, &std::pair<std::string, std::string>::first);
     if (at == families_.end())
-        at = families_.insert(at, {metric, fmt::format("# TYPE {} {}\n", metric, type_of(metric))});
+        at = families_.insert(at, {metric, fmt::format("# HELP {0} Of each {1}: {2}.\n# TYPE {0} {3}\n", metric, prefix,
+                                                       help_of(name), type_of(metric))});
     fmt::format_to(std::back_inserter(at->second), "{}{{{}}} {}\n", metric, labels, value);
 }
 
 std::string MetricsText::text() const {
-    std::string all;
+    std::string all = fmt::format(
+        "# HELP mavloom_build_info The version of Mavloom.\n# TYPE mavloom_build_info gauge\n"
+        "mavloom_build_info{{{}}} 1\n",
+        label("version", version()));
     for (const auto& [name, lines] : families_) all += lines;
     return all;
 }

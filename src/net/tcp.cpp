@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cerrno>
 
+#include "mavloom/net/port_holder.hpp"
 #include "net/socket_options.hpp"
 
 namespace mavloom::net {
@@ -34,7 +35,7 @@ SetupResult<TcpStream> TcpStream::start_connect(const Address& remote, const std
     if (local) {
         set_option(fd.get(), SOL_SOCKET, SO_REUSEADDR, 1);
         if (::bind(fd.get(), local->data(), local->size()) != 0) {
-            return system_error(fmt::format("cannot bind TCP {}", local->text()), errno);
+            return bind_error(fmt::format("cannot bind TCP {}", local->text()), errno, Transport::tcp, local->port());
         }
     }
     if (::connect(fd.get(), remote.data(), remote.size()) != 0 && errno != EINPROGRESS) {
@@ -82,7 +83,7 @@ SetupResult<TcpListener> TcpListener::open(const Address& local, bool v6_only) {
     // refused.
     set_option(fd, SOL_SOCKET, SO_REUSEADDR, 1);
     if (::bind(fd, local.data(), local.size()) != 0 || ::listen(fd, SOMAXCONN) != 0) {
-        return system_error(fmt::format("cannot listen on TCP {}", local.text()), errno);
+        return bind_error(fmt::format("cannot listen on TCP {}", local.text()), errno, Transport::tcp, local.port());
     }
     auto bound = local_address(fd);
     if (!bound) return tl::unexpected(std::move(bound).error());

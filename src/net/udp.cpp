@@ -13,6 +13,7 @@
 #include <cstring>
 #include <ctime>
 
+#include "mavloom/net/port_holder.hpp"
 #include "net/kernel_time.hpp"
 #include "net/socket_options.hpp"
 
@@ -171,7 +172,7 @@ SetupResult<UdpSocket> UdpSocket::open(const Address& local, const UdpOptions& o
     if (auto done = choose_group_interface(fd, local.is_v6(), options.group_interface); !done)
         return tl::unexpected(std::move(done).error());
     if (::bind(fd, local.data(), local.size()) != 0)
-        return system_error(fmt::format("cannot bind UDP {}", local.text()), errno);
+        return bind_error(fmt::format("cannot bind UDP {}", local.text()), errno, Transport::udp, local.port());
     if (options.group) {
         if (auto done = join(fd, *options.group, options.group_interface); !done)
             return tl::unexpected(std::move(done).error());
