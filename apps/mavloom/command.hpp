@@ -44,6 +44,7 @@ struct Command {
     std::string_view description;
     Declare declare;
     bool uses_dialect = true;  // accepts --dialect
+    bool is_verbose = false;   // --verbose has an effect
 };
 
 Run declare_route(Arguments, const Common&);
@@ -74,6 +75,9 @@ void write_stderr_line(std::string_view line);
 void keep_standard_descriptors() noexcept;
 // Prints "mavloom: TEXT" to stderr, unless --quiet.
 void print_notice(const Common& common, std::string_view text);
+// Prints "mavloom: 2026-11-28 12:34:56 TEXT" to stderr, in local time, unless --quiet. The journal keeps the time
+// itself, so there the line has none. For what a router or simulator reports while it runs.
+void print_event(const Common& common, std::string_view text);
 
 // Returns the built-in definitions with those of every --dialect file added.
 SetupResult<dialect::Dialect> load_dialect(const Common& common);

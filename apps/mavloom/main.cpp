@@ -18,6 +18,7 @@
 #include "mavloom/base/shown.hpp"
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/base/version.hpp"
+#include "mavloom/endpoint/endpoint.hpp"
 #include "signals.hpp"
 
 namespace mavloom::app {
@@ -25,9 +26,9 @@ namespace mavloom::app {
 namespace {
 
 constexpr std::array commands{
-    Command{"route", "forward frames unchanged between any number of links", declare_route},
+    Command{"route", "forward frames unchanged between any number of links", declare_route, true, true},
     Command{"listen", "decode and print every message that arrives", declare_listen},
-    Command{"relay", "decode frames, optionally edit them, re-encode and forward them", declare_relay},
+    Command{"relay", "decode frames, optionally edit them, re-encode and forward them", declare_relay, true, true},
     Command{"record", "write received frames to a .tlog file", declare_record},
     Command{"replay", "send a recording at its own pace", declare_replay},
     Command{"sim", "simulate vehicles that ground stations take for real", declare_sim},
@@ -47,13 +48,13 @@ constexpr std::string_view footer =
     "Exit status: 0 done, 1 failed, 2 wrong use, 3 bad input file, 4 loss or mismatch found, 130/143 ended by a "
     "signal.";
 
-void add_common(CLI::App& command, Common& common, bool uses_dialect) {
-    command.add_flag("-v,--verbose", common.verbose, "log more to stderr (only relay and route)");
-    command.add_flag("-q,--quiet", common.quiet, "log only errors to stderr");
-    if (!uses_dialect) return;
-    command
-        .add_option("--dialect", common.dialect_files,
-                    "message definitions (MAVLink XML) to add to the built-in ones; may be repeated")
+void add_common(CLI::App& sub, Common& common, const Command& command) {
+    auto* const verbose = sub.add_flag("-v,--verbose", common.verbose, "log more to stderr");
+    if (!command.is_verbose) verbose->group("");  // taken, but not listed
+    sub.add_flag("-q,--quiet", common.quiet, "log only errors to stderr");
+    if (!command.uses_dialect) return;
+    sub.add_option("--dialect", common.dialect_files,
+                   "message definitions (MAVLink XML) to add to the built-in ones; may be repeated")
         ->type_name("FILE")
         ->allow_extra_args(false);
 }
@@ -78,6 +79,13 @@ void refuse_empty_values(CLI::App& command) {
     for (auto* sub : command.get_subcommands([](const CLI::App*) { return true; })) refuse_empty_values(*sub);
 }
 
+// "mavloom replay flight.tlog udpout://..." lacks the option of its destination.
+std::string destination_hint(const std::string& word, const CLI::App& command) {
+    const auto* const to = command.get_option_no_throw("--to");
+    return to != nullptr && endpoint::parse_endpoint(word) ? fmt::format("; to send there, type --to {}", shown(word))
+                                                           : std::string();
+}
+
 // Returns CLI11's error text. For an unknown option or subcommand, suggests the nearest spelling.
 std::string explain(const CLI::ParseError& error, const CLI::App& app) {
     const CLI::App* command = &app;
@@ -94,7 +102,9 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app) {
     for (const auto* sub : command->get_subcommands([](const CLI::App*) { return true; }))
         known.push_back(sub->get_name());
     const std::vector<std::string_view> names(known.begin(), known.end());
-    return fmt::format("'{}' is not expected here{}", left.front(), did_you_mean(left.front(), names));
+    auto hint = destination_hint(left.front(), *command);
+    if (hint.empty()) hint = did_you_mean(left.front(), names);
+    return fmt::format("{} is not expected here{}", in_quotes(left.front()), hint);
 }
 
 bool is_command(std::string_view word) {
@@ -104,8 +114,8 @@ bool is_command(std::string_view word) {
 }
 
 // Returns an error text for an option before the command, as in "mavloom --dialect mine.xml listen ...".
-std::optional<std::string> option_before_command(std::span<char*> arguments) {
-    const std::string_view first = arguments.size() > 1 ? arguments[1] : "";
+std::optional<std::string> option_before_command(std::span<const std::string> arguments) {
+    const std::string_view first = arguments.size() > 1 ? arguments[1] : std::string_view{};
     if (!first.starts_with('-') || first == "-h" || first == "--help") return std::nullopt;
     const auto command = std::ranges::find_if(arguments, is_command);
     if (command == arguments.end()) return std::nullopt;
@@ -113,30 +123,44 @@ std::optional<std::string> option_before_command(std::span<char*> arguments) {
                        *command, shown(first));
 }
 
-Exit run(int argc, char** argv) {
-    const std::string_view first = argc > 1 ? argv[1] : "";
+// "mavloom help" and "mavloom help COMMAND" are "mavloom --help" and "mavloom COMMAND --help".
+std::vector<std::string> words_of(int argc, char** argv) {
+    std::vector<std::string> words(argv, argv + argc);
+    if (words.size() < 2 || words[1] != "help") return words;
+    words.erase(words.begin() + 1);
+    words.emplace_back("--help");
+    return words;
+}
+
+std::vector<const char*> pointers_to(std::span<const std::string> words) {
+    std::vector<const char*> pointers;
+    for (const auto& word : words) pointers.push_back(word.c_str());
+    return pointers;
+}
+
+Exit run(std::span<const std::string> words) {
+    const std::string_view first = words.size() > 1 ? words[1] : std::string_view{};
     if (first == "--version") {
         fmt::print("mavloom {}\n", version());
         return Exit::done;
     }
     if (!first.empty() && first[0] != '-' && !is_command(first)) return unknown_command(first);
-    if (const auto misplaced = option_before_command({argv, static_cast<std::size_t>(argc)}))
-        return wrong_use(*misplaced, "");
+    if (const auto misplaced = option_before_command(words)) return wrong_use(*misplaced, "");
 
     Common common;
-    CLI::App app{"Moves, shows, re-encodes and records MAVLink telemetry.", "mavloom"};
+    CLI::App app{"Moves, shows, re-encodes and records MAVLink telemetry, and simulates vehicles.", "mavloom"};
     app.footer(std::string(footer));
     app.require_subcommand(1);
     app.add_flag("--version")->description("print the version");
     std::vector<std::pair<CLI::App*, Run>> runs;
     for (const auto& command : commands) {
         CLI::App* sub = app.add_subcommand(std::string(command.name), std::string(command.description));
-        add_common(*sub, common, command.uses_dialect);
+        add_common(*sub, common, command);
         runs.emplace_back(sub, command.declare(Arguments(sub), common));
         refuse_empty_values(*sub);
     }
     try {
-        app.parse(argc, argv);
+        app.parse(static_cast<int>(words.size()), pointers_to(words).data());
     } catch (const CLI::Success& help) {
         app.exit(help);
         return Exit::done;
@@ -233,7 +257,7 @@ int main(int argc, char** argv) {
     mavloom::app::Signals::survive_lost_rings();
     mavloom::app::keep_standard_descriptors();
     mavloom::app::allow_many_descriptors();
-    const auto status = mavloom::app::run(argc, argv);
+    const auto status = mavloom::app::run(mavloom::app::words_of(argc, argv));
     if (std::fflush(stdout) != 0 && status == mavloom::app::Exit::done && errno != EPIPE)
         return static_cast<int>(
             mavloom::app::fail(mavloom::system_error("cannot write to standard output", errno).value()));

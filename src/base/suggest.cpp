@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace mavloom {
@@ -28,6 +29,16 @@ static std::size_t distance(std::string_view a, std::string_view b) {
     return row[b.size()];
 }
 
+static bool same_letters(std::string_view a, std::string_view b) { return std::ranges::equal(a, b, {}, lower, lower); }
+
+// True if one begins or ends with the other, which is at least half of it.
+static bool extends(std::string_view a, std::string_view b) {
+    constexpr std::size_t shortest = 4;
+    if (a.size() > b.size()) std::swap(a, b);
+    if (a.size() < shortest || b.size() > 2 * a.size()) return false;
+    return same_letters(a, b.substr(0, a.size())) || same_letters(a, b.substr(b.size() - a.size()));
+}
+
 // True if `typed` is the beginning of `candidate`, for example `dedup` for `dedup_ms`.
 static bool begins(std::string_view typed, std::string_view candidate) {
     constexpr std::size_t shortest = 3;
@@ -40,15 +51,17 @@ std::string_view nearest(std::string_view typed, std::span<const std::string_vie
     constexpr std::size_t longest_name = 64;  // limits the work for names that come from files
     if (typed.empty() || typed.size() > longest_name) return {};
     std::string_view best;
-    std::size_t best_distance = typed.size() / 3 + 1;
+    std::pair best_edits{typed.size() / 3 + 1, std::size_t{0}};  // where `extends` counts as one; exactly
     for (const auto candidate : candidates) {
-        if (candidate.size() > typed.size() + best_distance || typed.size() > candidate.size() + best_distance)
+        const bool is_extended = extends(typed, candidate);
+        if (!is_extended &&
+            std::max(candidate.size(), typed.size()) > std::min(candidate.size(), typed.size()) + best_edits.first)
             continue;
-        const auto d = distance(typed, candidate);
-        if (d < best_distance || (d == best_distance && best.empty())) {
-            best = candidate;
-            best_distance = d;
-        }
+        const auto exact = distance(typed, candidate);
+        const std::pair edits{is_extended ? std::min(exact, std::size_t{1}) : exact, exact};
+        if (edits.first > typed.size() / 3 + 1 || (!best.empty() && edits >= best_edits)) continue;
+        best = candidate;
+        best_edits = edits;
     }
     if (!best.empty()) return best;
     const auto begun = std::ranges::find_if(candidates, [&](auto candidate) { return begins(typed, candidate); });

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <vector>
 
 #include "config/places.hpp"
 #include "mavloom/base/shown.hpp"
@@ -54,6 +55,20 @@ SetupResult<void> check_links(const Config& config, std::string_view file_name) 
         });
 }
 
+// Rejects an endpoint that calls the port of an earlier one, or the other way round.
+SetupResult<void> check_no_loops(const Config& config, std::string_view file_name) {
+    std::vector<const endpoint::Endpoint*> earlier;
+    return detail::each_endpoint(config,
+                                 [&](const endpoint::Endpoint& endpoint, const Section& section) -> SetupResult<void> {
+                                     static constexpr std::array<std::string_view, 3> own{"url", "port", "scheme"};
+                                     for (const auto* other : earlier)
+                                         if (auto good = endpoint::check_not_called(*other, endpoint); !good)
+                                             return bad(file_name, detail::line_of(section, own), good.error().text);
+                                     earlier.push_back(&endpoint);
+                                     return {};
+                                 });
+}
+
 SetupResult<void> check_groups(const Config& config, std::string_view file_name) {
     struct Chosen {
         endpoint::GroupMode mode;
@@ -80,6 +95,7 @@ SetupResult<void> check_groups(const Config& config, std::string_view file_name)
 SetupResult<void> check_for_router(const Config& config, std::string_view file_name, const dialect::Dialect& dialect) {
     if (auto good = check_no_rings(config, file_name); !good) return good;
     if (auto good = check_links(config, file_name); !good) return good;
+    if (auto good = check_no_loops(config, file_name); !good) return good;
     if (auto good = check_sections(config, file_name); !good) return good;
     if (auto good = check_groups(config, file_name); !good) return good;
     if (auto good = check_message_names(config, file_name, dialect); !good) return good;

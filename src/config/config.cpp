@@ -7,9 +7,10 @@
 #include <array>
 #include <utility>
 
-#include "config/keys.hpp"
 #include "config/places.hpp"
+#include "mavloom/base/shown.hpp"
 #include "mavloom/config/document.hpp"
+#include "mavloom/config/keys.hpp"
 
 namespace mavloom::config {
 
@@ -25,11 +26,15 @@ std::vector<Variables::Name> variable_names() {
 
 class Loader {
 public:
-    Loader(const Document& document, const Environment& environment)
-        : document_(document), variables_(environment, variable_names()) {}
+    Loader(const Document& document, const Environment& environment, Overrides overrides)
+        : document_(document),
+          environment_(environment),
+          variables_(environment, variable_names()),
+          overrides_(overrides) {}
 
     SetupResult<Config> load() {
         static constexpr std::array<std::string_view, 1> lists{"endpoint"};
+        if (auto done = refuse_web(); !done) return tl::unexpected(std::move(done.error()));
         if (auto done = document_.check_tables(config_sections(), lists); !done)
             return tl::unexpected(std::move(done.error()));
         if (auto done = variables_.check(config_.notes); !done) return tl::unexpected(std::move(done.error()));
@@ -47,7 +52,20 @@ public:
     }
 
 private:
-    // Precedence is default, file, environment: the later one wins.
+    // Earlier versions took these settings, although nothing has ever listened there.
+    [[nodiscard]] SetupResult<void> refuse_web() const {
+        if (const Table* const table = document_.find("web"))
+            return document_.error(table->line, "this version has no web page, so nothing would listen; remove [web]");
+        for (const auto& [name, value] : environment_)
+            if (name.starts_with("MAVLOOM_WEB_"))
+                return setup_error(SetupCode::bad_input,
+                                   fmt::format("environment: this version has no web page, so nothing would listen; "
+                                               "type unset {}",
+                                               shown(name)));
+        return {};
+    }
+
+    // Precedence is default, file, environment, option: the later one wins.
     SetupResult<void> read_section(std::string_view name, const Table* table) {
         std::vector<std::string_view> known;
         for (const ConfigKey& key : config_keys())
@@ -76,13 +94,20 @@ private:
             setting = {std::string(key.name), *text, Origin::file, entry->line, {}};
         }
         const Variables::Name name{key.section, key.name};
-        const std::string* const variable = variables_.find(name);
-        if (variable == nullptr) return setting;
-        const auto variable_name = Variables::name_of(name);
-        if (auto done = key.set(config_, *variable); !done)
-            return setup_error(SetupCode::bad_input,
-                               fmt::format("environment: {}: {}", variable_name, done.error().text));
-        return Setting{std::string(key.name), *variable, Origin::environment, 0, variable_name};
+        if (const std::string* const variable = variables_.find(name)) {
+            const auto variable_name = Variables::name_of(name);
+            if (auto done = key.set(config_, *variable); !done)
+                return setup_error(SetupCode::bad_input,
+                                   fmt::format("environment: {}: {}", variable_name, done.error().text));
+            setting = {std::string(key.name), *variable, Origin::environment, 0, variable_name};
+        }
+        for (const Override& given : overrides_) {
+            if (given.section != key.section || given.key != key.name) continue;
+            if (auto done = key.set(config_, given.value); !done)
+                return tl::unexpected(std::move(done.error()).within(given.option));
+            setting = {std::string(key.name), given.value, Origin::option, 0, std::string(given.option)};
+        }
+        return setting;
     }
 
     // A stream request needs a sender id.
@@ -90,10 +115,14 @@ private:
         if (config_.router.request_streams_hz == 0 || config_.router.heartbeat) return {};
         constexpr std::string_view what =
             "request_streams needs heartbeat = \"SYS/COMP\": the id that the router sends its requests with";
-        for (const Section& section : config_.sections)
-            for (const Setting& setting : section.settings)
-                if (setting.key == "request_streams" && setting.origin == Origin::file)
-                    return document_.error(setting.line, what);
+        const auto router = std::ranges::find(config_.sections, "router", &Section::name);
+        const Setting& given = *std::ranges::find(router->settings, "request_streams", &Setting::key);
+        if (given.origin == Origin::file) return document_.error(given.line, what);
+        if (given.origin == Origin::option)
+            return setup_error(SetupCode::usage,
+                               fmt::format("{} needs --heartbeat SYS/COMP, as in 255/191: the id that "
+                                           "the router sends its requests with",
+                                           given.variable));
         return setup_error(SetupCode::bad_input, fmt::format("environment: {}", what));
     }
 
@@ -110,24 +139,27 @@ private:
     }
 
     const Document& document_;
+    const Environment& environment_;
     Variables variables_;
+    Overrides overrides_;
     Config config_;
 };
 
 }  // namespace
 
-SetupResult<Config> read_config(const Document& document, const Environment& environment) {
-    return Loader(document, environment).load();
+SetupResult<Config> read_config(const Document& document, const Environment& environment, Overrides overrides) {
+    return Loader(document, environment, overrides).load();
 }
 
-SetupResult<Config> parse_config(std::string_view text, std::string_view file_name, const Environment& environment) {
+SetupResult<Config> parse_config(std::string_view text, std::string_view file_name, const Environment& environment,
+                                 Overrides overrides) {
     const auto document = parse_document(text, file_name);
-    return document ? read_config(*document, environment) : tl::unexpected(document.error());
+    return document ? read_config(*document, environment, overrides) : tl::unexpected(document.error());
 }
 
-SetupResult<Config> load_config(const std::filesystem::path& file, const Environment& environment) {
+SetupResult<Config> load_config(const std::filesystem::path& file, const Environment& environment, Overrides overrides) {
     const auto document = load_document(file);
-    return document ? read_config(*document, environment) : tl::unexpected(document.error());
+    return document ? read_config(*document, environment, overrides) : tl::unexpected(document.error());
 }
 
 }  // namespace mavloom::config

@@ -191,6 +191,13 @@ private:
             note(section, "mavlink-router ignores an endpoint without a name");
             return {};
         }
+        for (const auto line : section.continued)
+            notes_.push_back({line,
+                              section.name,
+                              {},
+                              fmt::format("continues the section of line {}, as in mavlink-router; for a second "
+                                          "endpoint, give it another name",
+                                          section.line)});
         toml_ += "\n[[endpoint]]\n";
         if (auto done = uart ? read_uart(section) : udp ? read_udp(section) : read_tcp(section); !done) return done;
         put_key("name", toml_string(unique_name(name)));
@@ -240,6 +247,7 @@ private:
         if (same_word(mode->value, "Server") || same_word(mode->value, "Eavesdropping")) {
             const auto* port = section.find("Port");
             if (port == nullptr) return bad(section.line, fmt::format("[{}] has no Port", shown(section.name)));
+            if (auto good = check_port_is_free(section, *address, *port); !good) return good;
             return put_url("udpin", *address, *port);
         }
         if (!same_word(mode->value, "Normal") && !same_word(mode->value, "Client"))
@@ -250,6 +258,20 @@ private:
                                   : IniEntry{"Port", fmt::format("{}", take_free_port()), section.line};
         if (given_port == nullptr) note(section, port, fmt::format("not given; mavlink-router uses {}", port.value));
         return put_destination(section, *address, port);
+    }
+
+    // Two servers cannot bind one port.
+    SetupResult<void> check_port_is_free(const IniSection& section, const IniEntry& address, const IniEntry& port) {
+        const auto is_any = [](std::string_view host) { return host == "0.0.0.0" || host == "[::]"; };
+        for (const auto& server : servers_)
+            if (server.port == port.value &&
+                (server.address == address.value || is_any(server.address) || is_any(address.value)))
+                return bad(port.line,
+                           fmt::format("[{}] listens on UDP port {}, as [{}] in line {} does; choose another "
+                                       "Port for one of them",
+                                       shown(section.name), shown(port.value), shown(server.section), server.line));
+        servers_.push_back({address.value, port.value, section.name, port.line});
+        return {};
     }
 
     // In Normal mode, the kind of address decides the scheme.
@@ -380,8 +402,14 @@ private:
                      fmt::format("mavlink-router documents no such key{}", did_you_mean(entry.key, known)));
     }
 
+    struct Server {
+        std::string_view address, port, section;
+        std::uint32_t line;
+    };
+
     std::string_view file_;
     const std::vector<IniSection>& sections_;
+    std::vector<Server> servers_;
     std::string toml_;
     std::vector<ConversionNote> notes_;
     std::uint64_t tcp_port_ = default_tcp_port;

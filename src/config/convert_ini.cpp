@@ -59,6 +59,7 @@ private:
                    sections_.begin();
         if (current_ == static_cast<std::ptrdiff_t>(sections_.size()))
             sections_.push_back({std::string(name), line_, {}});
+        else sections_[static_cast<std::size_t>(current_)].continued.push_back(line_);
         return {};
     }
 

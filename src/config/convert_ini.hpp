@@ -22,6 +22,7 @@ struct IniSection {
     std::string name;
     std::uint32_t line = 0;
     std::vector<IniEntry> entries;
+    std::vector<std::uint32_t> continued{};  // the lines of its further headings
 
     // Ignores case, as mavlink-router does.
     [[nodiscard]] const IniEntry* find(std::string_view key) const noexcept;

@@ -111,6 +111,37 @@ std::uint32_t line_with_endless_key(std::string_view text) {
     return 0;
 }
 
+// The line of the file, counted from 1, without blanks at its ends.
+std::string_view line_at(std::string_view text, std::uint32_t line) {
+    for (; line > 1 && !text.empty(); --line) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+    text = text.substr(0, text.find('\n'));
+    const auto first = std::min(text.find_first_not_of(" \t\r"), text.size());
+    return text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
+}
+
+// A heading that only configurations of mavlink-router have, such as [General] or [UdpEndpoint alpha]; 0 if there is
+// none, else its line.
+std::uint32_t line_of_mavlink_router(std::string_view text) {
+    std::uint32_t line = 1;
+    for (auto rest = text; !rest.empty(); ++line) {
+        const auto here = line_at(rest, 1);
+        for (const std::string_view heading : {"[General]", "[UdpEndpoint ", "[UartEndpoint ", "[TcpEndpoint "})
+            if (here.substr(0, heading.size()) == heading) return line;
+        rest.remove_prefix(std::min(rest.find('\n'), rest.size() - 1) + 1);
+    }
+    return 0;
+}
+
+// A hint for `url = udpin://0.0.0.0:14550`: text needs quotes.
+std::string quotes_hint(std::string_view line) {
+    constexpr std::string_view begins_a_value = "\"'[{#";
+    const auto equals = line.find('=');
+    if (equals == std::string_view::npos) return {};
+    const auto key = line_at(line.substr(0, equals), 1), value = line_at(line.substr(equals + 1), 1);
+    if (key.empty() || value.empty() || begins_a_value.find(value.front()) != std::string_view::npos) return {};
+    return fmt::format("; text is written in quotes: {} = \"{}\"", shown(key), shown(value));
+}
+
 std::string upper(std::string_view text) {
     std::string result(text);
     std::ranges::transform(result, result.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
@@ -173,11 +204,17 @@ SetupResult<Document> parse_document(std::string_view text, std::string_view fil
     Document document{std::string(file_name), {}};
     if (const auto line = line_with_endless_key(text); line != 0)
         return document.error(line, "more than 1000 dots in one line: expected keys like router.dedup_ms");
+    if (const auto line = line_of_mavlink_router(text); line != 0)
+        return document.error(line,
+                              fmt::format("this is a configuration of mavlink-router; to convert it, type mavloom "
+                                          "check --convert {} > router.toml",
+                                          file_name));
     try {
         document.tables = tables_of(toml::parse(text, file_name));
         return document;
     } catch (const toml::parse_error& error) {  // the library reports errors only this way
-        return document.error(static_cast<std::uint32_t>(error.source().begin.line), error.description());
+        const auto line = static_cast<std::uint32_t>(error.source().begin.line);
+        return document.error(line, fmt::format("{}{}", error.description(), quotes_hint(line_at(text, line))));
     }
 }
 

@@ -26,6 +26,10 @@ bool is_place_of(endpoint::Scheme scheme, std::string_view key) {
     return key == "ring" && scheme == endpoint::Scheme::shm;
 }
 
+// Keys of other programs' files, and what to write instead.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 5> foreign_keys{
+    {{"device", "path"}, {"address", "host"}, {"baudrate", "baud"}, {"flow_control", "flow"}, {"type", "scheme"}}};
+
 class Reader {
 public:
     Reader(const Document& document, const Table& table) : document_(document), table_(table) {}
@@ -36,6 +40,7 @@ public:
             if (!text) return tl::unexpected(std::move(text.error()));
             given_.push_back({entry.key, std::move(*text), Origin::file, entry.line, {}});
         }
+        if (auto good = check_words(); !good) return tl::unexpected(std::move(good.error()));
         auto endpoint = place();
         if (!endpoint) return tl::unexpected(std::move(endpoint.error()));
         for (const Setting& setting : given_) {
@@ -57,6 +62,15 @@ private:
     [[nodiscard]] const Setting* find(std::string_view key) const {
         const auto found = std::ranges::find(given_, key, &Setting::key);
         return found == given_.end() ? nullptr : &*found;
+    }
+
+    [[nodiscard]] SetupResult<void> check_words() const {
+        for (const Setting& setting : given_)
+            for (const auto& [foreign, own] : foreign_keys)
+                if (setting.key == foreign)
+                    return bad(setting.line, fmt::format("[[endpoint]] has no key '{}'; write {} = \"{}\"", foreign,
+                                                         own, shown(setting.value)));
+        return {};
     }
 
     SetupResult<endpoint::Endpoint> place() {
@@ -164,8 +178,8 @@ SetupResult<PlacedEndpoint> read_endpoint(const Document& document, const Table&
     const Section& own = placed->section;
     if (std::ranges::any_of(earlier, [&](const Section& s) { return s.name == own.name && s.label == own.label; }))
         return document.error(
-            table.line,
-            fmt::format("two endpoints are named {}; give one of them another name = \"...\"", in_quotes(own.label)));
+            table.line, fmt::format("two endpoints are named {}; remove one of them, or give it another name = \"...\"",
+                                    in_quotes(own.label)));
     return placed;
 }
 

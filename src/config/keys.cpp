@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "config/keys.hpp"
+#include "mavloom/config/keys.hpp"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,9 @@
 #include "mavloom/base/name.hpp"
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/endpoint/grammar.hpp"
+#include "mavloom/net/address.hpp"
 
-namespace mavloom::config::detail {
+namespace mavloom::config {
 
 namespace {
 
@@ -61,11 +62,23 @@ SetupResult<void> set_capacity(Config& config, std::string_view text) {
     return endpoint::put(endpoint::parse_ring_capacity(text), config.ring.capacity_bytes);
 }
 
-SetupResult<void> set_ring_name(Config& config, std::string_view text) {
+SetupResult<void> put_name(std::string_view text, std::string_view whose, std::string& name) {
     if (!is_name(text))
         return endpoint::usage(
-            fmt::format("{} is not a ring name (letters, digits, '_' and '-', at most 64)", in_quotes(text)));
-    config.ring.name = std::string(text);
+            fmt::format("{} is not a {} name (letters, digits, '_' and '-', at most 64)", in_quotes(text), whose));
+    name = std::string(text);
+    return {};
+}
+
+SetupResult<void> set_metrics(Config& config, std::string_view text) {
+    const auto address = endpoint::parse_host_port(text, {});
+    if (!address) return endpoint::usage(fmt::format("{} is not HOST:PORT, as in 127.0.0.1:9090", in_quotes(text)));
+    if (auto good = endpoint::check_address(endpoint::Scheme::tcpin, *address); !good) return good;
+    if (!net::Address::parse(address->host, address->port))
+        return endpoint::usage(
+            fmt::format("{} is not a numeric address of this machine; for example, type 127.0.0.1:{}",
+                        in_quotes(address->host), address->port));
+    config.service.metrics = *address;
     return {};
 }
 
@@ -100,22 +113,91 @@ constexpr std::array<std::string_view, 2> targets{"drop", "flood"};
 constexpr std::array<std::string_view, 4> levels{"debug", "info", "warning", "error"};
 
 constexpr std::array all_keys{
-    ConfigKey{"router", "dedup_ms", "0",
+    ConfigKey{"router",
+              "name",
+              "",
+              [](Config& c, std::string_view t) { return put_name(t, "router", c.service.name); },
+              {"--name", "NAME",
+               "the router's name for `mavloom ctl` and `stat`: A-Z a-z 0-9 _ - (default: the name of the ring, or "
+               "router)"}},
+    ConfigKey{"router",
+              "dedup_ms",
+              "0",
               [](Config& c, std::string_view t) {
                   return endpoint::put(endpoint::parse_integer(t, 0, 60'000), c.router.dedup_ms);
-              }},
-    ConfigKey{"router", "unknown_component", "system",
-              [](Config& c, std::string_view t) { return put_choice(t, components, c.router.unknown_component); }},
-    ConfigKey{"router", "unknown_target", "drop",
-              [](Config& c, std::string_view t) { return put_choice(t, targets, c.router.unknown_target); }},
-    ConfigKey{"router", "route_timeout", "60", set_route_timeout},
-    ConfigKey{"router", "heartbeat", "off", set_heartbeat},
-    ConfigKey{"router", "request_streams", "off", set_request_streams},
-    ConfigKey{"ring", "name", "", set_ring_name},
-    ConfigKey{"ring", "capacity", "8MiB", set_capacity},
-    ConfigKey{"ring", "full", "evict", set_full},
-    ConfigKey{"ring", "mode", "0600", [](Config& c, std::string_view t) { return put_mode(t, c.ring.mode); }},
-    ConfigKey{"ring", "inlet_mode", "", [](Config& c, std::string_view t) { return put_mode(t, c.ring.inlet_mode); }},
+              },
+              {"--dedup-ms", "MS", "drop a frame if the same bytes arrived less than this long ago (default: 0, off)"}},
+    ConfigKey{"router",
+              "unknown_component",
+              "system",
+              [](Config& c, std::string_view t) { return put_choice(t, components, c.router.unknown_component); },
+              {"--unknown-component", "system|drop",
+               "where frames for an unseen component go: to its system's links (default), or nowhere"}},
+    ConfigKey{"router",
+              "unknown_target",
+              "drop",
+              [](Config& c, std::string_view t) { return put_choice(t, targets, c.router.unknown_target); },
+              {"--unknown-target", "drop|flood",
+               "where frames for an unseen system go: nowhere (default), or to all other links"}},
+    ConfigKey{"router",
+              "route_timeout",
+              "60",
+              set_route_timeout,
+              {"--route-timeout", "TIME", "forget a source that is silent for this long (default: 60s)"}},
+    ConfigKey{
+        "router",
+        "heartbeat",
+        "off",
+        set_heartbeat,
+        {"--heartbeat", "SYS/COMP", "send the router's own heartbeats with this id, as in 255/191 (default: off)"}},
+    ConfigKey{"router",
+              "request_streams",
+              "off",
+              set_request_streams,
+              {"--request-streams", "HZ",
+               "request all streams of each ArduPilot at this rate, under the id of --heartbeat (default: off)"}},
+    ConfigKey{"router",
+              "metrics",
+              "",
+              set_metrics,
+              {"--metrics", "HOST:PORT", "serve Prometheus metrics at http://HOST:PORT/metrics"}},
+    ConfigKey{"router",
+              "metrics_detail",
+              "false",
+              [](Config& c, std::string_view t) {
+                  return endpoint::put(endpoint::parse_bool(t), c.service.has_metrics_detail);
+              },
+              {"--metrics-detail", nullptr,
+               "let the metrics distinguish the components of each system, and list more messages"}},
+    ConfigKey{"ring",
+              "name",
+              "",
+              [](Config& c, std::string_view t) { return put_name(t, "ring", c.ring.name); },
+              {"--ring", "NAME",
+               "write every good frame into the ring /dev/shm/mavloom.NAME for programs on this machine, and forward "
+               "the frames that they send"}},
+    ConfigKey{"ring",
+              "capacity",
+              "8MiB",
+              set_capacity,
+              {"--ring-capacity", "BYTES", "size of the ring: a power of two, 64k to 64G (default: 8MiB)"}},
+    ConfigKey{"ring",
+              "full",
+              "evict",
+              set_full,
+              {"--ring-full", "evict|drop_newest",
+               "what happens if lossless readers still need all of the ring: they miss records (default), or the ring "
+               "misses the new frame"}},
+    ConfigKey{"ring",
+              "mode",
+              "0600",
+              [](Config& c, std::string_view t) { return put_mode(t, c.ring.mode); },
+              {"--ring-mode", "MODE", "permissions of the ring and its inlet: who reads and sends (default: 0600)"}},
+    ConfigKey{"ring",
+              "inlet_mode",
+              "",
+              [](Config& c, std::string_view t) { return put_mode(t, c.ring.inlet_mode); },
+              {"--ring-inlet-mode", "MODE", "permissions of the inlet alone: who sends (default: that of --ring-mode)"}},
     ConfigKey{"record", "path", "", set_record_path},
     ConfigKey{"record", "rotate_bytes", "",
               [](Config& c, std::string_view t) {
@@ -125,21 +207,22 @@ constexpr std::array all_keys{
               [](Config& c, std::string_view t) {
                   return endpoint::put(endpoint::parse_rotate_every(t), c.record.rotate_every);
               }},
-    ConfigKey{"log", "level", "info", [](Config& c, std::string_view t) { return put_choice(t, levels, c.log_level); }},
-    ConfigKey{
-        "web", "listen", "127.0.0.1:8088",
-        [](Config& c, std::string_view t) { return endpoint::put(endpoint::parse_host_port(t, {}), c.web.listen); }},
+    ConfigKey{"log",
+              "level",
+              "info",
+              [](Config& c, std::string_view t) { return put_choice(t, levels, c.log_level); },
+              {"--log-level", "LEVEL", "what to report on stderr: debug, info (default), warning or error"}},
 };
 
 constexpr bool is_router_key(const ConfigKey& key) { return key.section == "router"; }
 static_assert(std::ranges::equal(all_keys | std::views::filter(is_router_key), endpoint::router_keys, {},
                                  &ConfigKey::name));
 
-constexpr std::array<std::string_view, 5> sections{"router", "ring", "record", "log", "web"};
+constexpr std::array<std::string_view, 4> sections{"router", "ring", "record", "log"};
 
 }  // namespace
 
 std::span<const ConfigKey> config_keys() noexcept { return all_keys; }
 std::span<const std::string_view> config_sections() noexcept { return sections; }
 
-}  // namespace mavloom::config::detail
+}  // namespace mavloom::config

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string_view>
 
+#include "mavloom/base/shown.hpp"
 #include "mavloom/dialect/terms.hpp"
 #include "mavloom/message/builder.hpp"
 
@@ -124,6 +125,18 @@ SetupResult<void> add_remap(std::string_view text, Plan& plan) {
     return {};
 }
 
+SetupResult<void> set_sender(std::string_view from, Plan& plan) {
+    if (from.empty()) return {};
+    const auto slash = from.find('/');
+    const auto system = number<std::uint8_t>(from.substr(0, slash));
+    const auto component = slash == std::string_view::npos ? std::nullopt : number<std::uint8_t>(from.substr(slash + 1));
+    if (!system || (slash != std::string_view::npos && !component))
+        return usage(fmt::format("--from: {} is not SYS or SYS/COMP, numbers from 0 to 255, as in 1/1", in_quotes(from)));
+    plan.system = SystemId{*system};
+    if (component) plan.component = ComponentId{*component};
+    return {};
+}
+
 }  // namespace
 
 SystemMap identity_map() noexcept {
@@ -142,6 +155,7 @@ SetupResult<Plan> make_plan(const dialect::Dialect& dialect, const Options& opti
     });
     if (!done) return tl::unexpected(std::move(done.error()));
     std::sort(plan.only.begin(), plan.only.end());
+    if (done = set_sender(options.from, plan); !done) return tl::unexpected(std::move(done.error()));
 
     if (done = add_rates(dialect, options.max_rate, plan); !done) return tl::unexpected(std::move(done.error()));
 

@@ -110,6 +110,34 @@ SetupResult<void> check_link(const Endpoint& endpoint, RoutingOptions routing) {
     return {};
 }
 
+namespace {
+
+struct OwnLog {
+    std::string_view suffix, error;
+};
+
+constexpr OwnLog own_logs[] = {
+    {".ulg",
+     "this is PX4's own log (ULog), not a recording of MAVLink; ulog_info and ulog2csv of the Python package pyulog "
+     "read "
+     "it, and PlotJuggler shows it"},
+    {".bin",
+     "this is ArduPilot's own log (DataFlash), not a recording of MAVLink; mavlogdump.py of the Python package "
+     "pymavlink "
+     "reads it, and MAVExplorer or PlotJuggler show it"},
+};
+
+}  // namespace
+
+SetupResult<void> check_recording_name(std::string_view path) {
+    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+    for (const auto& [suffix, error] : own_logs)
+        if (path.size() > suffix.size() &&
+            std::ranges::equal(path.substr(path.size() - suffix.size()), suffix, {}, lower))
+            return setup_error(SetupCode::usage, std::string(error));
+    return {};
+}
+
 SetupResult<void> check_written(const Endpoint& recording) {
     if (!recording.options.speed) return {};
     return refused(recording, "'speed' applies to a recording that is read; this one is written");

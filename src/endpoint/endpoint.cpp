@@ -8,6 +8,7 @@
 
 #include "mavloom/base/name.hpp"
 #include "mavloom/base/suggest.hpp"
+#include "mavloom/endpoint/checks.hpp"
 #include "mavloom/endpoint/grammar.hpp"
 
 namespace mavloom::endpoint {
@@ -96,8 +97,21 @@ bool is_short_form(std::string_view text) {
                        [&](const Short& form) { return text.starts_with(form.prefix); });
 }
 
+// The error for a path such as /tmp/ttyV0, which may be a device although it is not in /dev.
+tl::unexpected<SetupError> path_without_scheme(std::string_view path, std::string_view query) {
+    const auto options = query.empty() ? std::string() : fmt::format("?{}", shown(query));
+    if (query.starts_with("baud=") || query.starts_with("flow="))
+        return usage(fmt::format("it has no scheme; type serial://{}{}", shown(path), options));
+    return usage(
+        fmt::format("it has no scheme; type serial://{0}{1} if it is a device, tlog://{0}{1} if it is a recording",
+                    shown(path), options));
+}
+
 // The error for "127.0.0.1:14550" and all other text without a scheme.
-tl::unexpected<SetupError> no_scheme(std::string_view text) {
+tl::unexpected<SetupError> no_scheme(std::string_view text, std::string_view query) {
+    const auto first = text.substr(0, text.find(':'));  // of udp:14550, which also looks like a host with a port
+    if (first != text && std::ranges::find(foreign_schemes, first, &Foreign::scheme) != foreign_schemes.end())
+        return unknown_scheme(first, text.substr(first.size() + 1));
     const auto address = parse_host_port(text, {});
     if (address && check_address(Scheme::udpout, *address))
         return usage(
@@ -115,6 +129,8 @@ tl::unexpected<SetupError> no_scheme(std::string_view text) {
             return usage(fmt::format("the slashes are missing; type {}://{}", prefix, shown(text.substr(colon + 1))));
         return unknown_scheme(prefix, text.substr(colon + 1));
     }
+    if (auto good = check_recording_name(text); !good) return tl::unexpected(std::move(good.error()));
+    if (text.starts_with('/')) return path_without_scheme(text, query);
     if (text.find('/') != std::string_view::npos || text.find('.') != std::string_view::npos)
         return usage(fmt::format(
             "it has no scheme; type tlog://{0} if it is a recording, udpout://{0}:14550 if it is a host", shown(text)));
@@ -161,7 +177,7 @@ SetupResult<Split> split(std::string_view text) {
     if (result.rest.starts_with("/dev/") || (result.rest.starts_with('/') && has_comma)) return split_device(result);
     const auto form = std::ranges::find_if(short_forms,
                                            [&](const Short& f) { return result.rest.starts_with(f.prefix); });
-    if (form == std::end(short_forms)) return no_scheme(result.rest);
+    if (form == std::end(short_forms)) return no_scheme(result.rest, result.query);
     result.scheme = form->scheme;
     result.rest.remove_prefix(form->prefix.size());
     return result;

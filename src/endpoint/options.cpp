@@ -228,6 +228,13 @@ std::string schemes_text(SchemeSet schemes) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
+// The option of `mavloom route` that sets a key of [router].
+std::string option_of_key(std::string_view key) {
+    std::string name = fmt::format("--{}", key);
+    std::ranges::replace(name, '_', '-');
+    return name;
+}
+
 // A hint for a key of [router] that was given as an endpoint option. It recognises the exact name, a near miss, and a
 // unique prefix ("dedup").
 std::string router_key_hint(std::string_view typed) {
@@ -237,7 +244,8 @@ std::string router_key_hint(std::string_view typed) {
         const auto begins = [&](std::string_view n) { return n.starts_with(typed); };
         if (std::ranges::count_if(router_keys, begins) == 1) meant = *std::ranges::find_if(router_keys, begins);
     }
-    return meant.empty() ? std::string{} : fmt::format("; '{}' is a key of [router] in a configuration file", meant);
+    if (meant.empty()) return {};
+    return fmt::format("; '{}' is a setting of the router: {}, or {} in [router]", meant, option_of_key(meant), meant);
 }
 
 }  // namespace
@@ -288,6 +296,8 @@ SetupResult<void> set_endpoint_option(Endpoint& endpoint, std::string_view key, 
 
 SetupResult<void> check_options(const Endpoint& endpoint) {
     const EndpointOptions& o = endpoint.options;
+    if (o.has_group_mode && o.group.empty())
+        return usage("group_mode= has no effect without group=NAME, the name of a group of redundant links");
     if (o.tap && o.heartbeat)
         return usage(
             "heartbeat= and tap=true exclude each other: a tap gets the frames of other links, and the router sends it "

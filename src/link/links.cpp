@@ -66,8 +66,9 @@ SetupResult<EndpointId> Links::add(const endpoint::Endpoint& endpoint, const dia
     const std::string label = endpoint.label();
     const bool is_named = has_address_of_its_own(endpoint);
     if (is_named && !allows_same_address(endpoint) && core_->endpoints.has(label))
-        return setup_error(SetupCode::usage,
-                           fmt::format("two endpoints are named {}; give one of them another name=", label));
+        return setup_error(
+            SetupCode::usage,
+            fmt::format("two endpoints are named {}; remove one of them, or give it another name=", label));
     const EndpointId id = core_->endpoints.next_id();
     const std::string signs_by = is_named ? label : std::string();
     const auto signs_as = core_->signing_ids.choose(signs_by, id, core_->endpoints);

@@ -20,8 +20,9 @@ SetupResult<void> RingSources::check(const endpoint::Endpoint& endpoint) {
 SetupResult<link::EndpointId> RingSources::add(const endpoint::Endpoint& endpoint, const dialect::Dialect* dialect) {
     const auto same = [&](const auto& ring) { return ring->endpoint().label() == endpoint.label(); };
     if (!links_.allows_same_address(endpoint) && std::ranges::any_of(rings_, same))
-        return setup_error(SetupCode::usage,
-                           fmt::format("two endpoints are named {}; give one of them another name=", endpoint.label()));
+        return setup_error(
+            SetupCode::usage,
+            fmt::format("two endpoints are named {}; remove one of them, or give it another name=", endpoint.label()));
     auto ring = std::make_unique<RingSource>(endpoint, dialect == nullptr ? table_ : dialect->wire_table(), link_ids_,
                                              links_, copies_, dialect);
     if (auto opened = ring->open(); !opened) return tl::unexpected(std::move(opened.error()));

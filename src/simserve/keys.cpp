@@ -35,6 +35,25 @@ SetupResult<void> set_name(Text text, std::string_view what, std::string& target
     return {};
 }
 
+// Kinds of vehicles as other programs and people call them.
+struct OtherName {
+    Text name, kind;
+};
+constexpr std::array other_names{
+    OtherName{"copter", "quad"},      OtherName{"multicopter", "quad"}, OtherName{"quadcopter", "quad"},
+    OtherName{"quadrotor", "quad"},   OtherName{"arducopter", "quad"},  OtherName{"iris", "quad"},
+    OtherName{"x500", "quad"},        OtherName{"drone", "quad"},       OtherName{"fixedwing", "plane"},
+    OtherName{"fixed_wing", "plane"}, OtherName{"arduplane", "plane"},  OtherName{"car", "rover"},
+    OtherName{"ugv", "rover"},        OtherName{"ardurover", "rover"},
+};
+
+SetupResult<void> set_kind(ScenarioVehicle& vehicle, Text text) {
+    const auto other = std::ranges::find(other_names, text, &OtherName::name);
+    if (other == other_names.end()) return put_choice(text, sim::kind_names, vehicle.options.kind);
+    return endpoint::usage(fmt::format("{} is none of {}, did you mean '{}'?", in_quotes(text),
+                                       fmt::join(sim::kind_names, ", "), other->kind));
+}
+
 SetupResult<void> set_duration(Scenario& scenario, Text text) {
     const auto time = endpoint::parse_duration(text);
     if (!time) return tl::unexpected(time.error());
@@ -91,7 +110,7 @@ SetupResult<void> set_ready_after(ScenarioVehicle& vehicle, Text text) {
 constexpr std::size_t most_traffic = 64, most_logs = 32;
 
 constexpr std::array<Key<ScenarioVehicle>, 14> all_vehicle_keys{{
-    {"kind", "quad", [](ScenarioVehicle& v, Text t) { return put_choice(t, sim::kind_names, v.options.kind); }},
+    {"kind", "quad", set_kind},
     {"autopilot", "px4",
      [](ScenarioVehicle& v, Text t) { return put_choice(t, sim::autopilot_names, v.options.autopilot); }},
     {"motion", "flight", [](ScenarioVehicle& v, Text t) { return put_choice(t, sim::motion_names, v.options.motion); }},

@@ -101,7 +101,7 @@ private:
             if (given.section != section || given.key != key.name) continue;
             if (auto done = key.set(target, given.value); !done)
                 return tl::unexpected(std::move(done.error()).within(given.option));
-            setting = {std::string(key.name), given.value, Origin::environment, 0, std::string(given.option)};
+            setting = {std::string(key.name), given.value, Origin::option, 0, std::string(given.option)};
         }
         return setting;
     }
@@ -217,7 +217,7 @@ private:
         for (const auto key : keys) {
             const Setting& setting = find(section, key);
             if (setting.origin == Origin::file) return document_.error(setting.line, what);
-            if (setting.origin == Origin::environment)
+            if (setting.origin == Origin::option)
                 return setup_error(SetupCode::usage, fmt::format("{}: {}", setting.variable, what));
         }
         return document_.error(section.line, what);

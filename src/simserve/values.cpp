@@ -22,12 +22,17 @@ tl::unexpected<SetupError> usage(std::string text) { return setup_error(SetupCod
 constexpr Range latitude_range{-90, 90}, longitude_range{-180, 180}, altitude_range{-500, 20'000},
     heading_range{0, 360}, speed_range{0, 60};
 
+std::string_view without_blanks(std::string_view text) {
+    const auto first = std::min(text.find_first_not_of(' '), text.size());
+    return text.substr(first, text.find_last_not_of(' ') + 1 - first);
+}
+
 SetupResult<std::vector<double>> parse_list(std::string_view text, std::span<const Range> ranges,
                                             std::span<const std::string_view> names) {
     std::vector<double> values;
     const auto add = [&](std::string_view part) -> SetupResult<void> {
         if (values.size() == ranges.size()) return usage(fmt::format("{} is one value too many", in_quotes(part)));
-        const auto value = parse_number(part, ranges[values.size()]);
+        const auto value = parse_number(without_blanks(part), ranges[values.size()]);
         if (!value) return tl::unexpected(SetupError(value.error()).within(names[values.size()]));
         values.push_back(*value);
         return {};
@@ -62,10 +67,13 @@ SetupResult<sim::Home> parse_home(std::string_view text) {
     static constexpr std::array<std::string_view, 4> names{"latitude", "longitude", "altitude", "heading"};
     const auto values = parse_list(text, ranges, names);
     if (!values) return tl::unexpected(values.error());
-    if (values->size() < 3)
-        return usage(fmt::format("{} is not LAT,LON,ALT,HEADING, as in 47.397742,8.545594,489.4,90", in_quotes(text)));
+    if (values->size() < 2)
+        return usage(
+            fmt::format("{} is not LAT,LON[,ALT[,HEADING]], as in 47.397742,8.545594 or 47.397742,8.545594,489.4,90",
+                        in_quotes(text)));
     const auto& v = *values;
-    return sim::Home{v[0], v[1], v[2], v.size() > 3 ? std::fmod(v[3], 360) : 0};
+    const double usual_altitude_m = sim::Home{}.altitude_m;
+    return sim::Home{v[0], v[1], v.size() > 2 ? v[2] : usual_altitude_m, v.size() > 3 ? std::fmod(v[3], 360) : 0};
 }
 
 SetupResult<sim::Wind> parse_wind(std::string_view text) {

@@ -20,7 +20,7 @@ struct Range {
 // The index of a word in a list.
 [[nodiscard]] SetupResult<std::size_t> parse_choice(std::string_view text, std::span<const std::string_view> choices);
 
-// "LAT,LON,ALT,HEADING" in degrees and metres above mean sea level.
+// "LAT,LON[,ALT[,HEADING]]" in degrees and metres above mean sea level; without these 489.4 and 0.
 [[nodiscard]] SetupResult<sim::Home> parse_home(std::string_view text);
 // "SPEED,DIR" or "SPEED,DIR,GUST": metres per second, and the direction that the wind comes from, in degrees.
 [[nodiscard]] SetupResult<sim::Wind> parse_wind(std::string_view text);

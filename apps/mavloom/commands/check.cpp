@@ -26,6 +26,7 @@ std::string_view origin_name(config::Origin origin) {
         case config::Origin::by_default: return "default";
         case config::Origin::file: return "file";
         case config::Origin::environment: return "environment";
+        case config::Origin::option: return "option";  // not here: `check` has none
     }
     return {};
 }

@@ -10,6 +10,7 @@
 #include "command.hpp"
 #include "counted.hpp"
 #include "mavloom/base/shown.hpp"
+#include "mavloom/base/suggest.hpp"
 #include "mavloom/control/control.hpp"
 #include "mavloom/link/links.hpp"
 #include "mavloom/shm/counter_page.hpp"
@@ -71,9 +72,9 @@ const std::vector<Action>& actions() {
     return all;
 }
 
-std::vector<std::string> action_names() {
-    std::vector<std::string> names;
-    for (const Action& action : actions()) names.emplace_back(action.name);
+std::vector<std::string_view> action_names() {
+    std::vector<std::string_view> names;
+    for (const Action& action : actions()) names.push_back(action.name);
     return names;
 }
 
@@ -105,7 +106,34 @@ SetupResult<void> add_arguments(const CtlOptions& options, const Action& action,
     return {};
 }
 
+bool is_action(std::string_view word) { return std::ranges::find(actions(), word, &Action::name) != actions().end(); }
+
+// "mavloom ctl takeoff 10" lacks the name of the program that is asked.
+SetupError without_name(const CtlOptions& options) {
+    const Action& action = *std::ranges::find(actions(), options.name, &Action::name);
+    auto typed = fmt::format("mavloom ctl {} {}", action.is_of_vehicles ? "sim" : "router", options.name);
+    for (const auto& word : {options.action, fmt::format("{}", fmt::join(options.arguments, " "))})
+        if (!word.empty()) typed += " " + shown(word);
+    return {SetupCode::usage, 0,
+            fmt::format("{} is an action; the name of the {} comes before it: {}", in_quotes(options.name),
+                        action.is_of_vehicles ? "simulator" : "router or simulator", typed)};
+}
+
+SetupResult<void> check_action(const CtlOptions& options) {
+    if (is_action(options.action)) return {};
+    if (is_action(options.name)) return tl::unexpected(without_name(options));
+    const auto names = action_names();
+    if (options.action.empty())
+        return setup_error(SetupCode::usage,
+                           fmt::format("the action is missing: mavloom ctl {} ACTION, which is one of {}",
+                                       shown(options.name), fmt::join(names, ", ")));
+    auto hint = did_you_mean(options.action, names);
+    if (hint.empty()) hint = fmt::format("; there are {}", fmt::join(names, ", "));
+    return setup_error(SetupCode::usage, fmt::format("there is no action {}{}", in_quotes(options.action), hint));
+}
+
 SetupResult<Json> request_of(const CtlOptions& options) {
+    if (auto good = check_action(options); !good) return tl::unexpected(std::move(good.error()));
     const Action& action = *std::ranges::find(actions(), options.action, &Action::name);
     Json request{{"cmd", options.action}};
     if (auto added = add_arguments(options, action, request); !added) return tl::unexpected(std::move(added.error()));
@@ -288,12 +316,9 @@ Run declare_ctl(Arguments command, const Common&) {
     auto options = std::make_shared<CtlOptions>();
     command.add_option("name", "NAME", options->name, "the --name of a router or simulator; by default router, or sim")
         .required();
-    command
-        .add_option("action", "ACTION", options->action,
-                    "links, stats, add URL, remove NAME; of a router: routes; of a simulator: streams, state, arm, "
-                    "disarm, takeoff ALTITUDE, mode NAME, param NAME [VALUE]")
-        .required()
-        .members(action_names());
+    command.add_option("action", "ACTION", options->action,
+                       "links, stats, add URL, remove NAME; of a router: routes; of a simulator: streams, state, arm, "
+                       "disarm, takeoff ALTITUDE, mode NAME, param NAME [VALUE]");
     command.add_option("argument", "ARGUMENT", options->arguments, "what the action takes").expected(0, 2);
     command.add_option("--system", "N", options->system, "the vehicle with this system id (default: all)");
     command.add_flag("--force", options->force, "arm or disarm even if the vehicle's own checks fail");

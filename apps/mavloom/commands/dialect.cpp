@@ -48,28 +48,38 @@ std::vector<std::string_view> all_names(const dialect::Dialect& dialect) {
     return names;
 }
 
-bool show_entry(fmt::memory_buffer& out, const dialect::Dialect& dialect, const DialectOptions& options) {
+bool show_entry(fmt::memory_buffer& out, const dialect::Dialect& dialect, std::string_view name, bool json) {
     for (const auto& e : dialect.enums()) {
-        if (const auto* entry = e.find(options.name)) {
-            (options.json ? json_entry : print_entry)(out, e, *entry);
+        if (const auto* entry = e.find(name)) {
+            (json ? json_entry : print_entry)(out, e, *entry);
             return true;
         }
     }
     return false;
 }
 
+// The name as the definitions spell it: ATTITUDE for `attitude`. The same text if there is none.
+std::string_view spelling_of(std::string_view name, const dialect::Dialect& dialect) {
+    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+    const auto names = all_names(dialect);
+    const auto same = std::ranges::find_if(
+        names, [&](std::string_view known) { return std::ranges::equal(known, name, {}, lower, lower); });
+    return same == names.end() ? name : *same;
+}
+
 // Shows a message by name or id, an enum, or an entry of one. Returns false if there is none.
 bool show(fmt::memory_buffer& out, const dialect::Dialect& dialect, const DialectOptions& options) {
     const auto id = as_id(options.name);
-    if (const auto* message = id ? dialect.find(*id) : dialect.find(options.name)) {
+    const auto name = spelling_of(options.name, dialect);
+    if (const auto* message = id ? dialect.find(*id) : dialect.find(name)) {
         (options.json ? json_message : print_message)(out, *message);
         return true;
     }
-    if (const auto* e = dialect.find_enum(options.name)) {
+    if (const auto* e = dialect.find_enum(name)) {
         (options.json ? json_enum : print_enum)(out, *e);
         return true;
     }
-    return show_entry(out, dialect, options);
+    return show_entry(out, dialect, name, options.json);
 }
 
 Exit run_list(const Common& common, const DialectOptions& options) {

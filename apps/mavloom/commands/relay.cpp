@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <climits>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "command.hpp"
 #include "counted.hpp"
 #include "mavloom/edit/stage.hpp"
+#include "mavloom/endpoint/checks.hpp"
 #include "mavloom/feed/relay.hpp"
 #include "mavloom/link/signing_times.hpp"
-#include "mavloom/net/interfaces.hpp"
 #include "output.hpp"
 #include "receiving.hpp"
 #include "sending.hpp"
@@ -91,7 +88,7 @@ void log_report(const Common& common, const feed::Destinations& destinations, co
         if (count != 0) print_notice(common, fmt::format("{}: {} {}", name, counted(count, noun), rest));
     };
     unless_zero("rewrapped", c.rewrapped.value(), "frame", "without full definition, with a new header and checksum");
-    unless_zero("filtered", c.filtered.value(), "frame", "that --only leaves out");
+    unless_zero("filtered", c.filtered.value(), "frame", "that --only or --from leave out");
     unless_zero("rate_limited", c.rate_limited.value(), "frame", "over --max-rate");
     unless_zero("not_v1", c.not_v1.value(), "frame", "that MAVLink 1 cannot carry");
     unless_zero("not_signed", c.not_signed.value(), "MAVLink 1 frame", "which cannot carry a signature (--as-v2 helps)");
@@ -171,40 +168,12 @@ SetupResult<void> open_sources(const RelayOptions& options, feed::Sources& sourc
     return {};
 }
 
-// Returns true if `host` is a name of this machine, as far as that is known without a lookup.
-bool is_own_name(const std::string& host) {
-    std::array<char, HOST_NAME_MAX + 1> own{};
-    return ::gethostname(own.data(), own.size() - 1) == 0 && host == own.data();
-}
-
-// Returns true if a socket bound to `bound` receives datagrams for `host`. A socket on 0.0.0.0 receives only IPv4; one
-// on :: receives both.
-bool hears(const std::string& bound, const std::string& host, bool broadcast) {
-    const auto here = net::Address::parse(bound, 0);
-    const auto there = net::Address::parse(host == "localhost" ? "127.0.0.1" : host, 0);
-    if (!there) return is_own_name(host);
-    if (!here) return true;
-    if (!here->is_any()) return *here == *there;
-    if (here->is_v4() && !there->is_v4()) return false;
-    return broadcast || there->is_loopback() || net::OwnAddresses().contains(*there, mono_now());
-}
-
-// Returns true if frames sent to `to` would arrive at `source` again.
-bool leads_back(const link::EndpointInfo& source, const endpoint::Endpoint& to) {
-    using endpoint::Scheme;
-    const auto in = source.endpoint.scheme;
-    const bool broadcast = to.scheme == Scheme::udpbcast;
-    const bool same_kind = (in == Scheme::udpin && (to.scheme == Scheme::udpout || broadcast)) ||
-                           (in == Scheme::tcpin && to.scheme == Scheme::tcpout);
-    return same_kind && source.local_port == to.address.port &&
-           hears(source.endpoint.address.host, to.address.host, broadcast);
-}
-
 SetupResult<void> check_no_loop(const std::vector<link::EndpointInfo>& sources, const std::vector<std::string>& to) {
     for (const auto& text : to) {
         const auto endpoint = endpoint::parse_endpoint(text);
-        const auto loop = std::ranges::find_if(
-            sources, [&](const auto& source) { return endpoint && leads_back(source, *endpoint); });
+        const auto loop = std::ranges::find_if(sources, [&](const auto& source) {
+            return endpoint && endpoint::leads_back(source.endpoint, source.local_port, *endpoint);
+        });
         if (loop != sources.end())
             return setup_error(
                 SetupCode::usage,
@@ -254,6 +223,7 @@ void declare_edits(Arguments command, RelayOptions& options) {
                        "change system id A to B; in answers from the far side, change B back to A");
     command.add_option("--only", "NAMES", edit.only, "only these messages: names or ids, separated by commas")
         .delimiter(',');
+    command.add_option("--from", "SYS[/COMP]", edit.from, "only from this system, or from this component of it");
     command
         .add_option("--max-rate", "MESSAGE:HZ", edit.max_rate,
                     "limit a message from each source to this rate; * is all telemetry: ATTITUDE:10,*:50")

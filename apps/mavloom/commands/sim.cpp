@@ -41,8 +41,9 @@ constexpr KeyOption key_options[] = {
     {"--system", "vehicle", "system", "system id of the first vehicle (default: 1)", "N"},
     {"--autopilot", "vehicle", "autopilot", "firmware to imitate: px4 (default) or ardupilot", "NAME"},
     {"--home", "vehicle", "home",
-     "start position: latitude and longitude in degrees, metres above sea level, heading in degrees from north",
-     "LAT,LON,ALT,HEADING"},
+     "start position: latitude and longitude in degrees, metres above sea level (default: 489.4), heading in degrees "
+     "from north (default: 0)",
+     "LAT,LON[,ALT[,HEADING]]"},
     {"--wind", "vehicle", "wind",
      "speed (m/s), direction that the wind comes from (degrees from north), and optionally gusts (m/s)",
      "SPEED,DIR[,GUST]"},
@@ -171,7 +172,7 @@ void fly(const Scenario& scenario, Simulator& simulator) {
 SetupResult<std::unique_ptr<Simulator>> make_simulator(const Common& common, const Scenario& scenario,
                                                        const dialect::Dialect& dialect) {
     const auto notice = [&common](config::LogLevel level, std::string_view text) {
-        if (level >= config::LogLevel::info || common.verbose > 0) print_notice(common, text);
+        if (level >= config::LogLevel::info || common.verbose > 0) print_event(common, text);
     };
     auto simulator = Simulator::create(dialect,
                                        {.speed = scenario.speed,

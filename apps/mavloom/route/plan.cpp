@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <set>
 #include <span>
@@ -20,10 +22,10 @@ namespace {
 // Reads the configuration file and applies the overrides of the command line.
 SetupResult<config::Config> read_config(const RouteOptions& options, const dialect::Dialect& dialect) {
     const auto environment = config::environment_of(environ);
-    auto config = options.config.empty() ? config::parse_config("", "", environment)
-                                         : config::load_config(options.config, environment);
+    const auto overrides = options.overrides();
+    auto config = options.config.empty() ? config::parse_config("", "", environment, overrides)
+                                         : config::load_config(options.config, environment, overrides);
     if (!config) return config;
-    if (!options.ring.empty()) config->ring.name = options.ring;
     if (auto checked = config::check_for_router(*config, options.config, dialect); !checked)
         return tl::unexpected(std::move(checked.error()));
     return config;
@@ -38,7 +40,50 @@ SetupResult<void> check_recordings(std::span<const endpoint::Endpoint> endpoints
     return {};
 }
 
+// True for `flight.tlog`, without scheme and options, if such a file exists and is not empty.
+bool is_existing_flight(const std::string& text, const endpoint::Endpoint& endpoint) {
+    std::error_code none;
+    return endpoint.scheme == endpoint::Scheme::tlog && text == endpoint.path &&
+           std::filesystem::is_regular_file(text, none) && std::filesystem::file_size(text, none) > 0;
+}
+
+bool calls_somebody(const endpoint::Endpoint& endpoint) {
+    using endpoint::Scheme;
+    constexpr std::array calling{Scheme::udpout, Scheme::tcpout, Scheme::udpbcast, Scheme::udpmcast};
+    return std::ranges::find(calling, endpoint.scheme) != calling.end();
+}
+
+// `route flight.tlog udpout://...` probably means `replay`. It would record, and rename the flight first.
+SetupResult<void> check_not_replayed(std::span<const std::string> texts, const Plan& plan) {
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        const auto& flight = plan.from_command_line[i];
+        if (!is_existing_flight(texts[i], flight)) continue;
+        const auto all = plan.endpoints();
+        const auto is_other = [&](const endpoint::Endpoint& e) { return e.path != flight.path; };
+        const auto others = static_cast<std::size_t>(std::ranges::count_if(all, is_other));
+        const auto called = std::ranges::find_if(all, calls_somebody);
+        if (others == 0 || static_cast<std::size_t>(std::ranges::count_if(all, calls_somebody)) != others) continue;
+        return setup_error(SetupCode::usage,
+                           fmt::format("{0} is a recording, and route would begin a new one under its name; to send "
+                                       "it, type mavloom replay {0} --to {1}; to record, tlog://{0}",
+                                       shown(flight.path), called->label()));
+    }
+    return {};
+}
+
 }  // namespace
+
+std::vector<config::Override> RouteOptions::overrides() const {
+    std::vector<config::Override> all;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const config::ConfigKey& key = config::config_keys()[i];
+        const bool is_flag = key.option.placeholder == nullptr;
+        const auto value = is_flag ? std::string(has_metrics_detail ? "true" : "") : keys[i];
+        if (key.option.name != nullptr && !value.empty())
+            all.push_back({key.option.name, key.section, key.name, value});
+    }
+    return all;
+}
 
 SetupResult<Plan> make_plan(const RouteOptions& options, const dialect::Dialect& dialect) {
     Plan plan;
@@ -58,6 +103,7 @@ SetupResult<Plan> make_plan(const RouteOptions& options, const dialect::Dialect&
     if (endpoints.empty())
         return setup_error(SetupCode::usage, "nothing to route between: give endpoints, or a --config with some");
     if (auto good = check_recordings(endpoints); !good) return tl::unexpected(std::move(good.error()));
+    if (auto good = check_not_replayed(options.endpoints, plan); !good) return tl::unexpected(std::move(good.error()));
     return plan;
 }
 

@@ -7,6 +7,7 @@
 
 #include "mavloom/base/result.hpp"
 #include "mavloom/config/config.hpp"
+#include "mavloom/config/keys.hpp"
 #include "mavloom/dialect/dialect.hpp"
 
 namespace mavloom::app {
@@ -16,10 +17,12 @@ struct RouteOptions {
     std::string config;
     std::string duration;
     std::string explain;  // a message's name or id; "*": all
-    std::string ring;     // overrides the ring of the file
-    std::string name;     // empty: the ring's name, else "router"
-    std::string metrics;  // HOST:PORT
+    // The options of the configuration keys, in the order of `config_keys()`. Empty: not given.
+    std::vector<std::string> keys = std::vector<std::string>(config::config_keys().size());
     bool has_metrics_detail = false;
+
+    // Those as settings that take precedence over the file's.
+    [[nodiscard]] std::vector<config::Override> overrides() const;
 };
 
 // The endpoints to route between: first those of the configuration file, then those of the command line. A reload

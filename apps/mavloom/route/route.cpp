@@ -82,12 +82,15 @@ private:
         const bool same_rules = config->router == plan_.config.router;
         if (config->ring != plan_.config.ring)
             write_stderr_line("mavloom: a changed [ring] takes effect when the router restarts");
+        if (config->service != plan_.config.service)
+            write_stderr_line("mavloom: changed name and metrics take effect when the router restarts");
         config->ring = plan_.config.ring;
+        config->service = plan_.config.service;
         plan_.config = std::move(*config);
         log_level_ = plan_.config.log_level;
         if (!same_rules) router_.configure(plan_.config.router);
         router_.apply(plan_.endpoints());
-        print_notice(common_, fmt::format("{} was read again", options_.config));
+        print_event(common_, fmt::format("{} was read again", options_.config));
     }
 
     const Common& common_;
@@ -121,19 +124,13 @@ SetupResult<void> open_ring(const Common& common, const config::RingConfig& ring
     return {};
 }
 
-SetupResult<std::unique_ptr<control::Control>> open_router_control(const Common& common, const RouteOptions& options,
-                                                                   const std::string& ring, router::Router& router) {
+SetupResult<std::unique_ptr<control::Control>> open_router_control(const Common& common, const config::Config& config,
+                                                                   router::Router& router) {
     control::ControlOptions control;
     control.on_notice = [&router](std::string_view text) { router.notify(config::LogLevel::warning, text); };
-    if (!options.metrics.empty()) {
-        const auto address = endpoint::parse_endpoint("tcpin://" + options.metrics);
-        if (!address)
-            return setup_error(
-                SetupCode::usage,
-                fmt::format("--metrics takes HOST:PORT, as in 127.0.0.1:9090, not '{}'", options.metrics));
-        control.metrics = address->address;
-    }
-    return open_control(common, router, std::move(control), options.name, ring.empty() ? "router" : ring);
+    control.metrics = config.service.metrics;
+    return open_control(common, router, std::move(control), config.service.name,
+                        config.ring.name.empty() ? "router" : config.ring.name);
 }
 
 Exit route(const Common& common, const RouteOptions& options) {
@@ -147,11 +144,11 @@ Exit route(const Common& common, const RouteOptions& options) {
     for (const auto& note : plan->config.notes) print_notice(common, note);
     auto log_level = plan->config.log_level;
     const auto notice = [&](config::LogLevel level, std::string_view text) {
-        if (level >= log_level || common.verbose > 0) print_notice(common, text);
+        if (level >= log_level || common.verbose > 0) print_event(common, text);
     };
     auto router = router::Router::create(*dialect, plan->config.router, notice);
     if (!router) return fail(router.error());
-    if (options.has_metrics_detail) (*router)->set_metrics_detail(router::MetricsDetail::components);
+    if (plan->config.service.has_metrics_detail) (*router)->set_metrics_detail(router::MetricsDetail::components);
     const Signals signals([](void* r) noexcept { static_cast<router::Router*>(r)->wake(); }, router->get(),
                           Signals::OnHangup::remember);
     std::optional<ExplainPrinter> explain;
@@ -163,10 +160,21 @@ Exit route(const Common& common, const RouteOptions& options) {
     if (auto opened = open_ring(common, plan->config.ring, **router); !opened) return fail(opened.error());
     if (auto learned = (*router)->learn_group_modes(plan->endpoints()); !learned) return fail(learned.error());
     if (auto added = add_endpoints(**router, *plan, false); !added) return fail(added.error());
-    const auto control = open_router_control(common, options, plan->config.ring.name, **router);
+    const auto control = open_router_control(common, plan->config, **router);
     if (!control) return fail(control.error());
     if (auto added = add_endpoints(**router, *plan, true); !added) return fail(added.error());
     return Routing(common, options, *dialect, **router, std::move(*plan), log_level).run(explain);
+}
+
+// The options of the configuration keys. They take precedence over the file's.
+void declare_keys(Arguments command, RouteOptions& options) {
+    for (std::size_t i = 0; i < options.keys.size(); ++i) {
+        const config::KeyOption& option = config::config_keys()[i].option;
+        if (option.name == nullptr) continue;
+        if (option.placeholder == nullptr)
+            command.add_flag(option.name, options.has_metrics_detail, option.description);
+        else command.add_option(option.name, option.placeholder, options.keys[i], option.description);
+    }
 }
 
 }  // namespace
@@ -182,16 +190,7 @@ Run declare_route(Arguments command, const Common& common) {
                     "print where each frame went and why; with MESSAGE, only for frames of that message")
         .expected(0, 1)
         .default_str("*");
-    command.add_option("--ring", "NAME", options->ring,
-                       "write every good frame into the ring /dev/shm/mavloom.NAME for programs on this machine, and "
-                       "forward the frames that they send");
-    command.add_option("--name", "NAME", options->name,
-                       "the router's name for `mavloom ctl` and `stat`: A-Z a-z 0-9 _ - (default: the name of the "
-                       "ring, or router)");
-    command.add_option("--metrics", "HOST:PORT", options->metrics,
-                       "serve Prometheus metrics at http://HOST:PORT/metrics");
-    command.add_flag("--metrics-detail", options->has_metrics_detail,
-                     "let the metrics distinguish the components of each system, and list more messages");
+    declare_keys(command, *options);
     command.add_option("--for", "TIME", options->duration, "end after this time: 10s, 2m");
     command.footer(
         "Forwards every frame byte for byte: broadcasts to all other links, targeted frames to the links where their "

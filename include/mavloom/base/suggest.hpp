@@ -9,8 +9,9 @@
 namespace mavloom {
 
 // Returns the candidate with the smallest edit distance to `typed`, ignoring case. It may differ in at most a third of
-// the letters of `typed`. If no candidate is that close, returns one that starts with `typed`, but only if `typed` has
-// at least three letters. Otherwise returns an empty view.
+// the letters of `typed`. If one of the two begins or ends with the other, and has at most twice as many letters, that
+// counts as one edit: `baudrate` means `baud`, and `play` means `replay`. If no candidate is that close, returns one
+// that starts with `typed`, but only if `typed` has at least three letters. Otherwise returns an empty view.
 [[nodiscard]] std::string_view nearest(std::string_view typed, std::span<const std::string_view> candidates);
 
 // Returns ", did you mean 'X'?", or an empty string if nothing is close.

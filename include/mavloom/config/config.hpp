@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Reads and checks the configuration file: TOML with [router], [[endpoint]], [ring], [record], [log] and [web].
+// Reads and checks the configuration file: TOML with [router], [[endpoint]], [ring], [record] and [log].
 //
-// A value in the file overrides the default, and an environment variable overrides both. Each value records where it
-// came from. An unknown section, key or value is an error with file, line and the nearest known spelling. The results
-// are plain values; loading allocates. Format: docs/guide/configuration.md.
+// A value in the file overrides the default, an environment variable overrides both, and an option of the command line
+// overrides all. Each value records where it came from. An unknown section, key or value is an error with file, line
+// and the nearest known spelling. The results are plain values; loading allocates. Format: docs/guide/configuration.md.
 #pragma once
 
 #include <chrono>
@@ -41,7 +41,16 @@ struct RouterConfig {
 
 // Error text for an endpoint with heartbeat=true, if the router has no id of its own to send heartbeats with.
 inline constexpr std::string_view heartbeat_needs_id =
-    "heartbeat=true needs heartbeat = \"SYS/COMP\" in [router], the id that the router sends it with";
+    "heartbeat=true needs the id that the router sends it with: --heartbeat SYS/COMP, as in 255/191, or the same as "
+    "heartbeat in [router]";
+
+// Under which name and port a running router can be asked: keys of [router] that a reload does not change.
+struct ServiceConfig {
+    std::string name;                             // empty: the ring's name, or "router" without a ring
+    std::optional<endpoint::HostPort> metrics{};  // empty: no metrics
+    bool has_metrics_detail = false;
+    friend bool operator==(const ServiceConfig&, const ServiceConfig&) = default;
+};
 
 struct RingConfig {
     std::string name;  // empty: no ring
@@ -58,12 +67,7 @@ struct RecordConfig {
     std::chrono::nanoseconds rotate_every{};
 };
 
-// Reserved for a dashboard: the value is checked, but nothing listens there yet.
-struct WebConfig {
-    endpoint::HostPort listen;
-};
-
-enum class Origin : std::uint8_t { by_default, file, environment };
+enum class Origin : std::uint8_t { by_default, file, environment, option };
 
 // One effective value, as text in the file's syntax, and its origin.
 struct Setting {
@@ -71,7 +75,7 @@ struct Setting {
     std::string value;  // empty: not set, and there is no default
     Origin origin = Origin::by_default;
     std::uint32_t line = 0;  // in the file, if `origin` is `file`
-    std::string variable;    // the variable's name, if `origin` is `environment`
+    std::string variable;    // the name of the variable or option, if `origin` is one of these
 };
 
 struct Section {
@@ -83,10 +87,10 @@ struct Section {
 
 struct Config {
     RouterConfig router;
+    ServiceConfig service;
     RingConfig ring;
     RecordConfig record;
     LogLevel log_level = LogLevel::info;
-    WebConfig web;
     std::vector<endpoint::Endpoint> endpoints;
 
     std::vector<Section> sections;  // all of the above as text, for `mavloom check`
@@ -95,11 +99,19 @@ struct Config {
 };
 
 // NAME=VALUE pairs whose name begins with MAVLOOM_. For example, MAVLOOM_ROUTER_DEDUP_MS sets `dedup_ms` of [router];
-// the names for [ring], [record], [log] and [web] are formed the same way. A variable that matches no key is an error
+// the names for [ring], [record] and [log] are formed the same way. A variable that matches no key is an error
 // in two cases: MAVLOOM_ is followed by a section's name, or the name resembles that of a key. Otherwise it only adds a
 // note.
 using Environment = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] Environment environment_of(const char* const* envp);
+
+// A value that an option of the command line gives to a key.
+struct Override {
+    std::string_view option;  // for errors: "--heartbeat"
+    std::string_view section, key;
+    std::string value;
+};
+using Overrides = std::span<const Override>;
 
 // Checks that the dialect defines every message named in filters and rates. Errors are `bad_input`, with file, line
 // and the nearest name.
@@ -127,9 +139,11 @@ using Environment = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] SetupResult<void> check_for_router(const Config& config, std::string_view file_name,
                                                  const dialect::Dialect& dialect);
 
-// Errors are `bad_input`. They begin with FILE:LINE: or, for a variable, with "environment:".
+// Errors are `bad_input`. They begin with FILE:LINE: or, for a variable, with "environment:". Errors of an override are
+// `usage`, and begin with the option.
 [[nodiscard]] SetupResult<Config> parse_config(std::string_view text, std::string_view file_name,
-                                               const Environment& environment = {});
-[[nodiscard]] SetupResult<Config> load_config(const std::filesystem::path& file, const Environment& environment = {});
+                                               const Environment& environment = {}, Overrides overrides = {});
+[[nodiscard]] SetupResult<Config> load_config(const std::filesystem::path& file, const Environment& environment = {},
+                                              Overrides overrides = {});
 
 }  // namespace mavloom::config

@@ -59,7 +59,8 @@ struct Document {
 [[nodiscard]] SetupResult<Document> load_document(const std::filesystem::path& file);
 
 // Reads a router's configuration, as `load_config` does.
-[[nodiscard]] SetupResult<Config> read_config(const Document& document, const Environment& environment = {});
+[[nodiscard]] SetupResult<Config> read_config(const Document& document, const Environment& environment = {},
+                                              Overrides overrides = {});
 
 // Finds variables that set a key of one of the sections: MAVLOOM_SECTION_KEY.
 class Variables {

@@ -28,6 +28,7 @@ struct Options {
     // "A=B": replaces source and target system A by B. All pairs apply at once, so "1=2" and "2=1" swap.
     std::vector<std::string> remap_system{};
     std::vector<std::string> only{};  // message names or ids
+    std::string from{};               // "SYS" or "SYS/COMP": only frames of this sender; empty: of all
     // "ATTITUDE:10", or "*:50" for all other telemetry (dialect/rates.hpp). The limit applies to each source and
     // message separately, measured in the frames' own time.
     std::vector<std::string> max_rate{};
@@ -46,7 +47,7 @@ struct Counters {
     Counter reencoded;         // decoded and encoded again
     Counter rewrapped;         // new header, original payload: the definition is missing or does not cover the payload
     Counter passed_untouched;  // forwarded as it came: unknown id, signed, or encoded in an unusual way
-    Counter filtered;          // dropped by `only`
+    Counter filtered;          // dropped by `only` or `from`
     Counter rate_limited;      // dropped by `max_rate`
     Counter not_v1;      // dropped because MAVLink 1 cannot carry it: id over 255, or no definition for the conversion
     Counter not_signed;  // forwarded unsigned although a key was given, because MAVLink 1 has no signatures

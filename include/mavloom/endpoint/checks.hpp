@@ -27,6 +27,16 @@ enum class RoutingOptions : std::uint8_t { refused, by_owner };
 // bind=HOST:PORT as an address; empty if bind= is not set.
 [[nodiscard]] SetupResult<std::optional<net::Address>> local_address(const Endpoint& endpoint);
 
+// Returns true if frames sent to `to` would arrive at `source`, which listens on `port` of this machine. Looks up no
+// names.
+[[nodiscard]] bool leads_back(const Endpoint& source, std::uint16_t port, const Endpoint& to);
+// Refuses two endpoints of one router if one of them calls the port of the other. Broadcasts are allowed: other
+// machines hear them too.
+[[nodiscard]] SetupResult<void> check_not_called(const Endpoint& a, const Endpoint& b);
+
+// Refuses the name of a log that flight controllers write to their own storage (ULog, DataFlash): it contains no
+// MAVLink. The error names the programs that read it.
+[[nodiscard]] SetupResult<void> check_recording_name(std::string_view path);
 // Refuses the option `speed` for a recording that is to be written. Only recordings that are read have it.
 [[nodiscard]] SetupResult<void> check_written(const Endpoint& recording);
 

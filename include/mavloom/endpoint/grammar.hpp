@@ -42,8 +42,9 @@ using mavloom::shown;
 
 // The keys of [router] in the configuration file. Users sometimes give them as endpoint options; the error then states
 // where they belong.
-inline constexpr std::array<std::string_view, 6> router_keys{"dedup_ms",      "unknown_component", "unknown_target",
-                                                             "route_timeout", "heartbeat",         "request_streams"};
+inline constexpr std::array<std::string_view, 9> router_keys{
+    "name",      "dedup_ms",        "unknown_component", "unknown_target", "route_timeout",
+    "heartbeat", "request_streams", "metrics",           "metrics_detail"};
 
 struct OptionText {
     std::string key;

@@ -50,12 +50,7 @@ struct Scenario {
     [[nodiscard]] std::string control_name() const;
 };
 
-// A value that an option of the command line gives to a key.
-struct Override {
-    std::string_view option;  // for errors: "--home"
-    std::string_view section, key;
-    std::string value;
-};
+using config::Override;
 
 // True if the file is a scenario and not a router's configuration: it has [sim], [streams] or [[vehicle]].
 [[nodiscard]] bool is_scenario(const config::Document& document) noexcept;

@@ -70,6 +70,36 @@ def test_an_option_before_the_command_is_explained(run, arguments):
             f"{arguments[0]}") in done.stderr
 
 
+@pytest.mark.parametrize("arguments, said", [
+    (["play", "x.tlog"], "unknown command 'play', did you mean 'replay'?"),
+    (["listen", "00000012.BIN"], "ArduPilot's own log (DataFlash)"),
+    (["replay", "flight.ulg", "--to", OUT], "PX4's own log (ULog)"),
+    (["replay", "x.tlog", OUT], f"'{OUT}' is not expected here; to send there, type --to {OUT}"),
+    (["ctl", "takeoff", "10"], "the name of the simulator comes before it: mavloom ctl sim takeoff 10"),
+    (["ctl", "links"], "the name of the router or simulator comes before it: mavloom ctl router links"),
+    (["ctl", "sim"], "the action is missing: mavloom ctl sim ACTION, which is one of links, routes, "),
+    (["ctl", "sim", "takeof", "10"], "there is no action 'takeof', did you mean 'takeoff'?"),
+    (["ctl", "sim", "explode"], "there is no action 'explode'; there are links, routes, "),
+    (["sim", "--vehicle", "copter"], "--vehicle: 'copter' is none of quad, plane, rover, did you mean 'quad'?"),
+    (["listen", "udp:14550"], "type udpin://0.0.0.0:14550 to listen, udpout://HOST:14550 to send"),
+    (["relay", IN, "--to", OUT, "--from", "1/x"], "--from: '1/x' is not SYS or SYS/COMP"),
+])
+def test_wrong_words_get_the_words_to_type(run, arguments, said):
+    done = run(*arguments)
+    assert done.status == 2 and said in done.stderr, done
+
+
+def test_help_is_a_command_too(run):
+    assert run("help").stdout == run("--help").stdout != ""
+    assert run("help", "relay").stdout == run("relay", "--help").stdout != ""
+
+
+@pytest.mark.parametrize("command, has", [("route", True), ("relay", True), ("listen", False), ("check", False)])
+def test_only_commands_that_log_more_list_verbose(run, command, has):
+    assert ("--verbose" in run(command, "--help").stdout) == has
+    assert run("check", "-v", "/dev/null").status == 0
+
+
 def test_options_of_the_program_itself(run):
     assert run("--help", "listen").status == 0
     assert run("--version").status == 0
@@ -100,12 +130,13 @@ def test_a_folder_is_no_input_file(run, arguments):
 
 def test_an_include_that_is_missing_states_where_it_is_looked_for(run, tmp_path):
     path = tmp_path / "mine.xml"
-    path.write_text("<mavlink>\n<include>common.xml</include>\n</mavlink>")
+    path.write_text("<mavlink>\n<include>commn.xml</include>\n</mavlink>")
     done = run("dialect", "check", path)
     assert done.status == 3
-    assert (f"{path}:2: cannot include {tmp_path}/common.xml: no such file; expected a file beside the including "
-            "one") in done.stderr
-    assert "share/mavloom/dialects" in done.stderr
+    assert (f"{path}:2: cannot include {tmp_path}/commn.xml: no such file; expected a file beside the including "
+            "one, or the name of a public one, such as common.xml") in done.stderr
+    path.write_text("<mavlink>\n<include>common.xml</include>\n</mavlink>")
+    assert run("dialect", "check", path).status == 0
 
 
 def test_one_is_singular(run, tmp_path):
@@ -119,7 +150,7 @@ def test_one_is_singular(run, tmp_path):
     assert ": 1 frame, 0 lost" in listened.stdout and "total heard: 1 frame, 21 bytes" in listened.stdout
     assert "junk_bytes: 1 byte outside" in listened.stdout and "damaged_places: 1 damaged place in" in listened.stdout
     relayed = run("relay", log, "--to", f"tlog://{tmp_path}/out.tlog", "--only", "ATTITUDE")
-    assert "1 frame in, " in relayed.stderr and "filtered: 1 frame that --only leaves out" in relayed.stderr
+    assert "1 frame in, " in relayed.stderr and "filtered: 1 frame that --only or --from leave out" in relayed.stderr
     assert re.search(r"\(1 frame, 21 bytes, median of 1 turn\)", run("bench", "parse", log, "--turns", "1").stdout)
     for text in (replayed.stderr, listened.stdout, relayed.stderr):
         assert re.search(r"\b1 (frame|byte|place|message|datagram)s\b", text) is None, text

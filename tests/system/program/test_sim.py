@@ -295,7 +295,7 @@ def test_what_max_bytes_allows_is_kept(sim, station, run):
     (("--autopilot", "ardupilt"), "--autopilot: 'ardupilt' is none of px4, ardupilot, did you mean 'ardupilot'?"),
     (("--profile", "px4-norml"), "did you mean 'px4-normal'?"),
     (("--motion", "randm"), "did you mean 'random'?"),
-    (("--home", "47,8"), "--home: '47,8' is not LAT,LON,ALT,HEADING, as in 47.397742,8.545594,489.4,90"),
+    (("--home", "47"), "--home: '47' is not LAT,LON[,ALT[,HEADING]], as in 47.397742,8.545594 or "),
     (("--home", "97,8,0,0"), "--home: latitude: '97' is not a number from -90 to 90"),
     (("--home", "nan,8,0,0"), "--home: latitude: 'nan' is not a number from -90 to 90"),
     (("--home", "1,2,3,4,5"), "--home: '5' is one value too many"),

@@ -221,8 +221,9 @@ def test_ctl_add_and_remove_while_it_runs(net, ctl):
     sut[2].count(2)
     before = sut.link(2)
     assert lines_of(ctl(sut.router, "remove", "tablet")) == []
-    sut.router.process.wait_output("^mavloom: tablet: added by ctl\n(.*\n)*mavloom: tablet: removed by ctl$",
-                                   stream="err")
+    time = r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d"
+    sut.router.process.wait_output(
+        rf"^mavloom: {time} tablet: added by ctl\n(.*\n)*mavloom: {time} tablet: removed by ctl$", stream="err")
     assert sut.send(1, attitude()) == [2]
 
     assert port.now() == []
@@ -553,7 +554,7 @@ def metrics_of(text):
             for family in text_string_to_metric_families(text) for sample in family.samples}
 
 
-def test_metrics_are_what_prometheus_reads(net, tmp_path):
+def test_metrics_are_what_prometheus_reads(net, run, tmp_path):
     port, third = routers.tcp_port(), UdpEnd()
     sut = net(("udpout", "tcpin"), extra=["--metrics", f"127.0.0.1:{port}", "--metrics-detail",
                                           f"tlog://{tmp_path}/x.tlog",
@@ -578,7 +579,10 @@ def test_metrics_are_what_prometheus_reads(net, tmp_path):
             if isinstance(value, int) and (name, labels) in read:
                 expected[name, labels] = value
     assert {key: read[key] for key in expected} == expected
-    others = set(read) - set(expected)
+    version, = (dict(labels)["version"] for name, labels in read if name == "mavloom_build_info")
+    assert version in run("--version").stdout
+    assert all(f"# HELP {name} " in text for name, _ in read)
+    others = {key for key in set(read) - set(expected) if key[0] != "mavloom_build_info"}
     assert others == {key for key in read if key[0].startswith(("mavloom_message_", "mavloom_system_"))}
     assert read["mavloom_system_frames_total", frozenset({("link", "A"), ("sys", "1")})] == sum(
         line["frames"] for line in sut.router.stats("source") if (line["link"], line["sys"]) == ("A", 1))
@@ -592,6 +596,21 @@ def test_metrics_are_what_prometheus_reads(net, tmp_path):
     again = metrics_of(fetch(port)[1])
     assert all(again[key] >= value for key, value in read.items())
     third.close()
+
+
+def test_the_file_names_the_router_and_its_metrics(spawn, run, tmp_path):
+    port, name, file = routers.tcp_port(), f"file-{os.getpid()}", tmp_path / "router.toml"
+    env = {"MAVLOOM_RUN": str(tmp_path)}
+    endpoint = f'[[endpoint]]\nurl = "udpin://127.0.0.1:{routers.udp_port()}"\n'
+    file.write_text(f'[router]\nname = "{name}"\nmetrics = "127.0.0.1:{port}"\n{endpoint}')
+    router = spawn("route", "--config", file, env=env)
+    harness.wait_for(lambda: run("ctl", name, "links", env=env).status == 0, what="the control socket")
+
+    assert "mavloom_router_heartbeats_sent_total" in fetch(port)[1]
+    file.write_text(f'[router]\nname = "other"\n{endpoint}')
+    router.send(signal.SIGHUP)
+    router.wait_output("changed name and metrics take effect when the router restarts", stream="err")
+    assert fetch(port)[1]
 
 
 def test_metrics_answers_what_it_does_not_serve(net):
@@ -1314,11 +1333,12 @@ BAD_ARGUMENTS = [
     ("an option given twice", [IN + "?idle=1&idle=2"], 2, "idle"),
     ("a value that is none", [IN + "?idle=soon"], 2, "soon"),
     ("unknown message in a filter", [IN + "?in_block=ATITUDE"], 2, "did you mean 'ATTITUDE'?"),
-    ("two of one name", [IN, IN], 2, "give one of them another name="),
+    ("two of one name", [IN, IN], 2, "remove one of them, or give it another name="),
     ("port 0", ["udpin://127.0.0.1:0"], 2, "choose one"),
     ("unknown option", [IN, "--fro", "1s"], 2, "did you mean '--for'?"),
     ("a bad time", [IN, "--for", "soon"], 2, "2s, 500ms, 1m or 1h"),
-    ("a bad name", [IN, "--name", "a b"], 2, "1 to 64 of A-Z a-z 0-9 _ -"),
+    ("a bad name", [IN, "--name", "a b"], 2,
+     "--name: 'a b' is not a router name (letters, digits, '_' and '-', at most 64)"),
     ("metrics without host", [IN, "--metrics", "9090"], 2, "HOST:PORT, as in 127.0.0.1:9090"),
     ("metrics at a name", [IN, "--metrics", "localhost:9090"], 2, "numeric address"),
     ("explains an unknown message", [IN, "--explain", "ATITUDE"], 2, "ATITUDE"),
@@ -1328,9 +1348,15 @@ BAD_ARGUMENTS = [
     ("a key that is none", [IN + "?sign={folder}/bad.key"], 3, "64 hexadecimal digits"),
     ("a key that others read", [IN + "?sign={folder}/open.key"], 3, "chmod 600"),
     ("no such file", ["--config", "{folder}/none.toml"], 3, "none.toml: No such file or directory"),
-    ("UDP port in use", ["udpin://127.0.0.1:{udp}"], 1, "Address already in use"),
-    ("TCP port in use", ["tcpin://127.0.0.1:{tcp}"], 1, "Address already in use"),
-    ("metrics port in use", [IN, "--metrics", "127.0.0.1:{tcp}"], 1, "Address already in use"),
+    ("UDP port in use", ["udpin://127.0.0.1:{udp}"], 1, "Address already in use by {holder}"),
+    ("TCP port in use", ["tcpin://127.0.0.1:{tcp}"], 1, "Address already in use by {holder}"),
+    ("metrics port in use", [IN, "--metrics", "127.0.0.1:{tcp}"], 1, "Address already in use by {holder}"),
+    ("calls itself", ["udpin://0.0.0.0:{free}", "udpout://127.0.0.1:{free}"], 2,
+     "udpout://127.0.0.1:{free} is where udpin://0.0.0.0:{free} listens: the router would send to itself"),
+    ("a replay that is meant", ["{folder}/flight.tlog", "udpout://127.0.0.1:{free}"], 2,
+     "type mavloom replay {folder}/flight.tlog --to udpout://127.0.0.1:{free}; to record, tlog://"),
+    ("streams without an id", [IN, "--request-streams", "4"], 2, "--request-streams needs --heartbeat SYS/COMP"),
+    ("a heartbeat without an id", ["udpout://127.0.0.1:{free}?heartbeat=true"], 2, "--heartbeat SYS/COMP"),
     ("required device missing", ["serial:///dev/no-such-port?required=true"], 1, "No such file or directory"),
     ("no folder for a recording", [IN, "tlog://{folder}/none/x.tlog"], 1, "No such file or directory"),
     ("a ring", ["shm://ring"], 2, "shm://"),
@@ -1350,8 +1376,14 @@ BAD_FILES = [
     ("port 0", "[[endpoint]]\nurl = 'udpin://127.0.0.1:0'\n", "port 0"),
     ("no key", "[[endpoint]]\nurl = 'udpin://127.0.0.1:14550?sign=/none.key'\n",
      "bad.toml:2: sign: cannot open key file /none.key"),
+    ("the main.conf of mavlink-router", "[General]\nTcpServerPort=5760\n",
+     "bad.toml:1: this is a configuration of mavlink-router; to convert it, type mavloom check --convert"),
+    ("a page that does not exist", "[web]\nlisten = '127.0.0.1:8088'\n", "bad.toml:1: this version has no web page"),
+    ("a router that calls itself",
+     "[[endpoint]]\nurl = 'tcpin://127.0.0.1:5760'\n[[endpoint]]\nurl = 'tcpout://localhost:5760'\n",
+     "bad.toml:4: tcpout://localhost:5760 is where tcpin://127.0.0.1:5760 listens"),
     ("a rule of the router", "[[endpoint]]\nurl = 'udpin://127.0.0.1:14550?dedup=5'\n",
-     "'dedup_ms' is a key of [router]"),
+     "'dedup_ms' is a setting of the router"),
 ]
 
 
@@ -1362,14 +1394,17 @@ def test_bad_arguments(run, tmp_path, arguments, status, said):
     (tmp_path / "bad.key").chmod(0o600)
     (tmp_path / "open.key").write_text("00" * 32)
     (tmp_path / "open.key").chmod(0o644)
+    (tmp_path / "flight.tlog").write_bytes(frames.FLIGHT.read_bytes()[:100])
     udp, tcp = harness.udp_socket(), socket.create_server(("127.0.0.1", 0))
     with udp, tcp:
         values = {"free": routers.udp_port(), "udp": udp.getsockname()[1], "tcp": tcp.getsockname()[1],
-                  "folder": tmp_path}
+                  "folder": tmp_path,
+                  "holder": f"{pathlib.Path('/proc/self/comm').read_text().strip()} (process {os.getpid()})"}
         own_name = [] if "--name" in arguments else ["--name", f"bad-{os.getpid()}"]
         done = run("route", *(argument.format(**values) for argument in arguments), *own_name)
 
-    assert done.status == status and said in done.stderr, done
+    assert done.status == status and said.format(**values) in done.stderr, done
+    assert sorted(path.name for path in tmp_path.glob("flight*")) == ["flight.tlog"], "nothing is renamed"
     complaints = [line for line in done.stderr.splitlines() if "receive buffer" not in line
                   and "MAVLOOM_PROGRAM" not in line and not line.startswith("Try 'mavloom")]
     assert len(complaints) == 1 and complaints[0].startswith("mavloom: "), done

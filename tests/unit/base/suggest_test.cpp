@@ -24,6 +24,14 @@ TEST(Suggest, FindsAWordThatWasOnlyBegun) {
     EXPECT_EQ(nearest("qu", names), "");
 }
 
+TEST(Suggest, CountsOneEditIfAWordExtendsTheOther) {
+    constexpr std::array<std::string_view, 4> words{"max_rate", "baud", "relay", "replay"};
+    EXPECT_EQ(nearest("baudrate", words), "baud") << "max_rate differs in three letters";
+    EXPECT_EQ(nearest("play", words), "replay") << "relay differs in two letters";
+    EXPECT_EQ(nearest("relays", words), "relay");
+    EXPECT_EQ(nearest("baudratebaudrate", words), "");
+}
+
 TEST(Suggest, IsEmptyWhenNothingIsNear) {
     EXPECT_EQ(nearest("GPS_RAW_INT", names), "");
     EXPECT_EQ(nearest("", names), "");

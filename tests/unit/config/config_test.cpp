@@ -5,9 +5,11 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <tuple>
 
+#include "mavloom/config/keys.hpp"
 #include "mavloom/endpoint/grammar.hpp"
 #include "mavloom/wire/signing.hpp"
 #include "support/temp_dir.hpp"
@@ -47,13 +49,16 @@ TEST(Config, AnEmptyFileGivesTheDefaults) {
     EXPECT_EQ(config.ring.mode, 0600);
     EXPECT_EQ(config.ring.inlet_mode, std::nullopt);
     EXPECT_EQ(config.log_level, LogLevel::info);
-    EXPECT_EQ(config.web.listen, (endpoint::HostPort{"127.0.0.1", 8088}));
+    EXPECT_EQ(config.service, ServiceConfig{});
     EXPECT_TRUE(config.endpoints.empty());
-    EXPECT_EQ(config.sections.size(), 5u);
+    EXPECT_EQ(config.sections.size(), 4u);
 }
 
 constexpr std::string_view whole_file = R"(
 [router]
+name = "bridge"
+metrics = "127.0.0.1:9090"
+metrics_detail = true
 dedup_ms = 250
 unknown_component = "drop"
 unknown_target = "flood"
@@ -92,8 +97,6 @@ path = "flight.tlog"
 rotate_bytes = 100000000
 [log]
 level = "debug"
-[web]
-listen = "0.0.0.0:80"
 )";
 
 TEST(Config, TakesEveryKey) {
@@ -122,7 +125,7 @@ TEST(Config, TakesEveryKey) {
     EXPECT_EQ(config.record.path, "flight.tlog");
     EXPECT_EQ(config.record.rotate_bytes, 100000000u);
     EXPECT_EQ(config.log_level, LogLevel::debug);
-    EXPECT_EQ(config.web.listen, (endpoint::HostPort{"0.0.0.0", 80}));
+    EXPECT_EQ(config.service, (ServiceConfig{"bridge", endpoint::HostPort{"127.0.0.1", 9090}, true}));
 }
 
 TEST(Config, AUrlWhoseOptionEndsInTlogKeepsItsOptions) {
@@ -142,14 +145,14 @@ TEST(Config, KnowsWhereEachValueCameFrom) {
     EXPECT_EQ(setting(config, 0, "dedup_ms").origin, Origin::environment);
     EXPECT_EQ(setting(config, 0, "dedup_ms").variable, "MAVLOOM_ROUTER_DEDUP_MS");
     EXPECT_EQ(setting(config, 0, "heartbeat").origin, Origin::file);
-    EXPECT_EQ(setting(config, 0, "heartbeat").line, 7u);
+    EXPECT_EQ(setting(config, 0, "heartbeat").line, 10u);
     EXPECT_EQ(setting(config, 1, "full").origin, Origin::by_default);
     EXPECT_EQ(setting(config, 1, "full").value, "evict");
-    EXPECT_EQ(setting(config, 5, "idle").line, 10u);  // in the url
-    EXPECT_EQ(setting(config, 5, "max_rate").value, "*:50,ATTITUDE:10");
-    EXPECT_EQ(setting(config, 5, "mtu").value, "1280");
-    EXPECT_EQ(setting(config, 5, "mtu").origin, Origin::by_default);
-    EXPECT_EQ(setting(config, 7, "baud").line, 25u);
+    EXPECT_EQ(setting(config, 4, "idle").line, 13u);  // in the url
+    EXPECT_EQ(setting(config, 4, "max_rate").value, "*:50,ATTITUDE:10");
+    EXPECT_EQ(setting(config, 4, "mtu").value, "1280");
+    EXPECT_EQ(setting(config, 4, "mtu").origin, Origin::by_default);
+    EXPECT_EQ(setting(config, 6, "baud").line, 28u);
 }
 
 struct Bad {
@@ -172,8 +175,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Bad{"[router\n", "r.toml:1: "}, Bad{"a = 1\na = 2\n", "r.toml:2: "},
         Bad{"[ruoter]\n", "r.toml:1: there is no section 'ruoter', did you mean 'router'?"},
-        Bad{"\n[weather]\n",
-            "r.toml:2: there is no section 'weather'; there are router, ring, record, log, web, endpoint"},
+        Bad{"\n[weather]\n", "r.toml:2: there is no section 'weather'; there are router, ring, record, log, endpoint"},
         Bad{"router = 1\n", "r.toml:1: 'router' is a section; write [router]"},
         Bad{"[endpoint]\nurl = \"udpin://0.0.0.0:1\"\n", "r.toml:1: endpoints are written [[endpoint]]"},
         Bad{"[router]\ndedup = 1\n", "r.toml:2: [router] has no key 'dedup'"},
@@ -184,7 +186,9 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"[router]\nroute_timeout = \"0s\"\n", "r.toml:2: route_timeout: the timeout of routes must be above 0"},
         Bad{"[router]\nheartbeat = \"255\"\n", "neither off nor SYS/COMP"},
         Bad{"[[endpoint]]\nurl = \"udpin://0.0.0.0:1\"\nheartbeat = true\n",
-            "r.toml:3: heartbeat=true needs heartbeat = \"SYS/COMP\" in [router]"},
+            "r.toml:3: heartbeat=true needs the id that the router sends it with: --heartbeat SYS/COMP"},
+        Bad{"[router]\nmetrics = 9090\n", "'9090' is not HOST:PORT, as in 127.0.0.1:9090"},
+        Bad{"[router]\nname = \"a b\"\n", "not a router name"},
         Bad{"[[endpoint]]\nurl = \"udpout://127.0.0.1:1\"\nheartbeat = false\ntap = true\n",
             "r.toml:1: heartbeat= and tap=true exclude each other"},
         Bad{"[ring]\ncapacity = 3000000\n", "not a power of two"}, Bad{"[ring]\nmode = 600\n", "in quotes"},
@@ -194,7 +198,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"[ring]\nfull = \"evikt\"\n", "did you mean 'evict'?"}, Bad{"[ring]\nname = \"a b\"\n", "not a ring name"},
         Bad{"[record]\nrotate_every = \"10ms\"\n", "the minimum is 1s"},
         Bad{"[record]\nrotate_bytes = 1\n", "out of range (4096 to"},
-        Bad{"[web]\nlisten = \"8088\"\n", "the host is missing"},
+        Bad{"\n[web]\nlisten = \"127.0.0.1:8088\"\n", "r.toml:2: this version has no web page"},
+        Bad{"[web]\n", "r.toml:1: this version has no web page"},
         Bad{"[[endpoint]]\nname = \"x\"\n", "r.toml:1: an endpoint needs url"},
         Bad{"[[endpoint]]\nurk = \"udpin://0.0.0.0:1\"\n",
             "r.toml:2: [[endpoint]] has no key 'urk', did you mean 'url'?"},
@@ -205,9 +210,22 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"[[endpoint]]\nurl = \"udpin://0.0.0.0:14550\"\nqueue_byte = 2\n",
             "r.toml:3: there is no option 'queue_byte', did you mean 'queue_bytes'?"},
         Bad{"[[endpoint]]\nurl = \"udpin://0.0.0.0:14550\"\ndedup_ms = 5\n",
-            "r.toml:3: there is no option 'dedup_ms'; 'dedup_ms' is a key of [router] in a configuration file"},
+            "r.toml:3: there is no option 'dedup_ms'; 'dedup_ms' is a setting of the router: --dedup-ms, or dedup_ms "
+            "in [router]"},
         Bad{"[[endpoint]]\nurl = \"udpin://0.0.0.0:14550\"\nbaud = 2\n", "does not take the option 'baud'"},
         Bad{"[[endpoint]]\nscheme = \"udpn\"\n", "did you mean 'udpin'?"},
+        // Habits from other programs.
+        Bad{"\n[General]\nTcpServerPort=5760\n",
+            "r.toml:2: this is a configuration of mavlink-router; to convert it, type mavloom check --convert r.toml"},
+        Bad{"# x\n[UdpEndpoint alpha]\nMode = Server\n", "r.toml:2: this is a configuration of mavlink-router"},
+        Bad{"[[endpoint]]\nurl = udpin://0.0.0.0:14550\n",
+            "text is written in quotes: url = \"udpin://0.0.0.0:14550\""},
+        Bad{"[ring]\nmode=rw\n", "text is written in quotes: mode = \"rw\""},
+        Bad{"[[endpoint]]\nscheme = \"serial\"\ndevice = \"/dev/ttyACM0\"\n",
+            "r.toml:3: [[endpoint]] has no key 'device'; write path = \"/dev/ttyACM0\""},
+        Bad{"[[endpoint]]\nscheme = \"udpin\"\naddress = \"0.0.0.0\"\n", "write host = \"0.0.0.0\""},
+        Bad{"[[endpoint]]\nurl = \"udpin://0.0.0.0:1\"\ngroup_mode = \"best\"\n",
+            "group_mode= has no effect without group=NAME"},
         // A missing or malformed host, port or path.
         Bad{"[[endpoint]]\nscheme = \"udpin\"\nport = 14550\n", "udpin needs host"},
         Bad{"[[endpoint]]\nscheme = \"udpin\"\nhost = \"\"\nport = 14550\n",
@@ -235,6 +253,48 @@ TEST(Config, AVariableThatSetsNothingIsAnError) {
                 HasSubstr("environment: MAVLOOM_LOG_LEVEL: 'loud' is not one of debug, info, warning, error"));
 }
 
+TEST(Config, AVariableOfTheWebPageIsRefusedUntilThereIsOne) {
+    const auto refused = parse_config("", "r.toml", {{"MAVLOOM_WEB_LISTEN", "127.0.0.1:8088"}});
+
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_THAT(refused.error().text, HasSubstr("this version has no web page"));
+    EXPECT_THAT(refused.error().text, HasSubstr("MAVLOOM_WEB_LISTEN"));
+}
+
+TEST(Config, AnOptionOverridesTheEnvironmentAndTheFile) {
+    const std::array overrides{Override{"--dedup-ms", "router", "dedup_ms", "3"},
+                               Override{"--metrics", "router", "metrics", "[::1]:9090"}};
+    const auto config = parse_config("[router]\ndedup_ms = 1\nname = \"of-the-file\"\n", "r.toml",
+                                     {{"MAVLOOM_ROUTER_DEDUP_MS", "2"}, {"MAVLOOM_ROUTER_METRICS", "127.0.0.1:1"}},
+                                     overrides);
+    ASSERT_TRUE(config.has_value()) << config.error().text;
+
+    EXPECT_EQ(config->router.dedup_ms, 3u);
+    EXPECT_EQ(config->service, (ServiceConfig{"of-the-file", endpoint::HostPort{"::1", 9090}, false}));
+    EXPECT_EQ(setting(*config, 0, "dedup_ms").origin, Origin::option);
+    EXPECT_EQ(setting(*config, 0, "dedup_ms").variable, "--dedup-ms");
+}
+
+TEST(Config, AnErrorOfAnOptionBeginsWithTheOption) {
+    const auto error_of = [](const Override& given) {
+        const auto config = parse_config("", "", {}, std::span(&given, 1));
+        EXPECT_EQ(config ? SetupCode::system : config.error().code, SetupCode::usage);
+        return config ? std::string("good") : config.error().text;
+    };
+    EXPECT_THAT(error_of({"--metrics", "router", "metrics", "9090"}), HasSubstr("--metrics: '9090' is not HOST:PORT"));
+    EXPECT_THAT(error_of({"--request-streams", "router", "request_streams", "4"}),
+                HasSubstr("--request-streams needs --heartbeat SYS/COMP"));
+}
+
+TEST(Config, EveryKeyOfTheRouterHasAnOption) {
+    for (const ConfigKey& key : config_keys()) {
+        if (key.section != "router" && key.section != "log") continue;
+        std::string name = key.section == "log" ? "--log-" : "--";
+        for (const char c : key.name) name += c == '_' ? '-' : c;
+        EXPECT_EQ(key.option.name, name);
+    }
+}
+
 TEST(Config, AVariableWithAMisspeltSectionIsAnError) {
     const auto misspelt = parse_config("", "r.toml", {{"MAVLOOM_ROUTR_DEDUP_MS", "1"}});
 
@@ -251,9 +311,9 @@ TEST(Config, AVariableThatIsNearToNoKeyIsNoted) {
 }
 
 TEST(Config, TakesItsOwnVariablesFromTheEnvironment) {
-    const char* const variables[] = {"PATH=/bin", "MAVLOOM_SEED=1", "MAVLOOM_WEB_LISTEN=[::1]:80", "MAVLOOM", nullptr};
+    const char* const variables[] = {"PATH=/bin", "MAVLOOM_SEED=1", "MAVLOOM_LOG_LEVEL=info", "MAVLOOM", nullptr};
 
-    EXPECT_EQ(environment_of(variables), (Environment{{"MAVLOOM_SEED", "1"}, {"MAVLOOM_WEB_LISTEN", "[::1]:80"}}));
+    EXPECT_EQ(environment_of(variables), (Environment{{"MAVLOOM_SEED", "1"}, {"MAVLOOM_LOG_LEVEL", "info"}}));
 }
 
 TEST(Config, MessagesAreLookedUpWithFileAndLine) {

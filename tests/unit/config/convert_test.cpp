@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/config/convert.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "config/convert_ini.hpp"
@@ -66,6 +67,26 @@ TEST(ConvertMavlinkRouter, AnEmptyFileIsItsTcpServerOn5760) {
     EXPECT_EQ(only_endpoint(config).scheme, endpoint::Scheme::tcpin);
     EXPECT_EQ(only_endpoint(config).address, (endpoint::HostPort{"::", 5760}));
     EXPECT_EQ(config.router.unknown_component, UnknownComponent::drop);
+}
+
+TEST(ConvertMavlinkRouter, TwoServersOnOnePortAreAnErrorOfTheSecond) {
+    constexpr std::string_view first = "[UdpEndpoint a]\nMode = Server\nAddress = 0.0.0.0\nPort = 14550\n";
+    const auto with = [&](std::string_view address, int port) {
+        return fmt::format("{}[UdpEndpoint b]\nMode = Server\nAddress = {}\nPort = {}\n", first, address, port);
+    };
+    EXPECT_EQ(
+        error_of(with("127.0.0.1", 14550)),
+        "main.conf:8: [UdpEndpoint b] listens on UDP port 14550, as [UdpEndpoint a] in line 4 does; choose another "
+        "Port for one of them");
+    EXPECT_THAT(config_of(with("127.0.0.1", 14551)).endpoints, SizeIs(3));
+}
+
+TEST(ConvertMavlinkRouter, ASectionThatContinuesAnotherIsNoted) {
+    const auto conversion = converted(
+        without_tcp("[UdpEndpoint a]\nMode = Server\nAddress = 0.0.0.0\nPort = 1\n[UdpEndpoint A]\nPort = 2\n"));
+    EXPECT_THAT(places(conversion), ElementsAre("7 [UdpEndpoint a]"));
+    EXPECT_THAT(conversion.notes.front().text, HasSubstr("continues the section of line 3"));
+    EXPECT_THAT(conversion.toml, HasSubstr("udpin://0.0.0.0:2"));
 }
 
 TEST(ConvertMavlinkRouter, TcpServerPort0IsNoServer) { EXPECT_THAT(config_of(no_tcp).endpoints, IsEmpty()); }

@@ -120,6 +120,19 @@ TEST(Stage, LetsOnlyNamedMessagesThrough) {
     EXPECT_EQ(out_of(sut->backward(view(test::attitude_v2))), test::attitude_v2);
 }
 
+TEST(Stage, LetsOnlyTheNamedSenderThrough) {
+    const auto frame = view(test::heartbeat_v2);
+    const auto verdict_of = [&](std::string from) {
+        return stage({.from = std::move(from)})->forward(frame, t0, t0).verdict;
+    };
+    const auto system = std::to_string(frame.system().value), component = std::to_string(frame.component().value);
+
+    EXPECT_EQ(verdict_of(system), Verdict::forward);
+    EXPECT_EQ(verdict_of(system + "/" + component), Verdict::forward);
+    EXPECT_EQ(verdict_of("77"), Verdict::filtered);
+    EXPECT_EQ(verdict_of(system + "/77"), Verdict::filtered);
+}
+
 TEST(Stage, LimitsRatesByTheFramesOwnTime) {
     const auto sut = stage({.max_rate = {"ATTITUDE:10,*:50"}});
     int attitudes = 0, others = 0, heartbeats = 0;

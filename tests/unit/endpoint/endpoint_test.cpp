@@ -11,6 +11,7 @@
 #include <regex>
 #include <string>
 
+#include "mavloom/endpoint/checks.hpp"
 #include "mavloom/endpoint/grammar.hpp"
 
 namespace mavloom::endpoint {
@@ -145,11 +146,16 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"127.0.0.1:14550", "type udpout://127.0.0.1:14550 to send, udpin://127.0.0.1:14550 to listen"},
         Bad{"localhost:14550", "udpout://localhost:14550"}, Bad{"0.0.0.0:14550", "type udpin://0.0.0.0:14550 to listen"},
         Bad{":14550", "type udpin://0.0.0.0:14550"}, Bad{"14550", "type udpin://0.0.0.0:14550"},
-        Bad{"gcs", "shm://gcs"}, Bad{"logs/flight.bin", "type tlog://logs/flight.bin"},
+        Bad{"gcs", "shm://gcs"}, Bad{"logs/flight.dat", "type tlog://logs/flight.dat"},
         Bad{"udpserver://0.0.0.0:14550", "is written udpin://0.0.0.0:14550"},
         Bad{"udpclient:10.0.0.1:14550", "is written udpout://10.0.0.1:14550"},
         Bad{"udpinn://127.0.0.1:1", "did you mean 'udpin'?"}, Bad{"UDPIN://127.0.0.1:1", "did you mean 'udpin'?"},
         Bad{"http://localhost:80", "there are udpin, udpout, udpbcast, udpmcast, tcpin, tcpout, serial, shm, tlog"},
+        Bad{"udp:14550", "type udpin://0.0.0.0:14550 to listen, udpout://HOST:14550 to send"},
+        Bad{"00000012.BIN", "ArduPilot's own log (DataFlash), not a recording of MAVLink; mavlogdump.py"},
+        Bad{"logs/flight.ulg", "PX4's own log (ULog), not a recording of MAVLink; ulog_info"},
+        Bad{"/tmp/ttyV0?baud=57600", "it has no scheme; type serial:///tmp/ttyV0?baud=57600"},
+        Bad{"/tmp/ttyV0", "type serial:///tmp/ttyV0 if it is a device, tlog:///tmp/ttyV0 if it is a recording"},
         Bad{"udpbcast:192.168.1.255:14550", "type udpbcast://192.168.1.255:14550"},
         Bad{"serial:/dev/ttyACM0", "type serial:///dev/ttyACM0"},
         Bad{"serial:///dev/ttyACM0:57600", "type serial:///dev/ttyACM0?baud=57600"},
@@ -199,17 +205,21 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"udpin://127.0.0.1:1?nmae=a", "did you mean 'name'?"},
         Bad{"udpin://127.0.0.1:1?queue_byte=1", "did you mean 'queue_bytes'?"},
         Bad{"udpin://127.0.0.1:1?xyzzy=1", "udpin takes name, group"},
-        Bad{"udpin://127.0.0.1:1?dedup_ms=5", "'dedup_ms' is a key of [router] in a configuration file"},
-        Bad{"udpin://127.0.0.1:1?dedup=5", "'dedup_ms' is a key of [router]"},
-        Bad{"serial:///dev/ttyACM0?dedup_sm=5", "'dedup_ms' is a key of [router]"},
-        Bad{"tcpin://127.0.0.1:1?unknown_component=drop", "'unknown_component' is a key of [router]"},
-        Bad{"udpout://127.0.0.1:1?unknown_target=flood", "'unknown_target' is a key of [router]"},
-        Bad{"tcpout://127.0.0.1:1?route_timeout=9", "'route_timeout' is a key of [router]"},
+        Bad{"udpin://127.0.0.1:1?dedup_ms=5",
+            "'dedup_ms' is a setting of the router: --dedup-ms, or dedup_ms in [router]"},
+        Bad{"udpin://127.0.0.1:1?dedup=5", "'dedup_ms' is a setting of the router"},
+        Bad{"serial:///dev/ttyACM0?dedup_sm=5", "'dedup_ms' is a setting of the router"},
+        Bad{"tcpin://127.0.0.1:1?unknown_component=drop", "'unknown_component' is a setting of the router"},
+        Bad{"udpout://127.0.0.1:1?unknown_target=flood", "'unknown_target' is a setting of the router"},
+        Bad{"tcpout://127.0.0.1:1?route_timeout=9", "'route_timeout' is a setting of the router"},
         Bad{"udpout://127.0.0.1:1?heartbeat=255/191", "is heartbeat = \"SYS/COMP\" in [router]"},
         Bad{"udpout://127.0.0.1:1?heartbeat=1", "neither true nor false"},
         Bad{"udpout://127.0.0.1:1?heartbeat=true&tap=true", "heartbeat= and tap=true exclude each other"},
         Bad{"tcpin://127.0.0.1:1?tap=true&heartbeat=false", "heartbeat= and tap=true exclude each other"},
-        Bad{"serial:///dev/ttyACM0?request_streams=4", "'request_streams' is a key of [router]"},
+        Bad{"serial:///dev/ttyACM0?request_streams=4", "'request_streams' is a setting of the router"},
+        Bad{"udpout://127.0.0.1:1?metrics=127.0.0.1:9090", "--metrics, or metrics in [router]"},
+        Bad{"serial:///dev/ttyACM0?baudrate=57600", "did you mean 'baud'?"},
+        Bad{"udpin://127.0.0.1:1?group_mode=best", "group_mode= has no effect without group=NAME"},
         Bad{"udpin://127.0.0.1:1?un=drop", "udpin takes name, group"},
         Bad{"udpin://127.0.0.1:1?name=a&name=b", "option 'name' is given twice"},
         Bad{"udpin://127.0.0.1:1?baud=57600", "udpin does not take the option 'baud' (it belongs to serial)"},
@@ -434,6 +444,31 @@ TEST(EndpointOptionNames, HoldWhatTheDesignLists) {
     EXPECT_THAT(endpoint_option_names(),
                 testing::IsSupersetOf({"name", "mtu", "max_rate", "private", "rotate_every", "bind", "low_latency"}));
 }
+
+struct Pair {
+    std::string_view a, b;
+    bool is_loop;
+};
+
+class Loops : public testing::TestWithParam<Pair> {};
+
+TEST_P(Loops, AreRefusedInEitherOrder) {
+    const auto& [a, b, is_loop] = GetParam();
+    EXPECT_EQ(!check_not_called(parsed(a), parsed(b)), is_loop) << a << " " << b;
+    EXPECT_EQ(!check_not_called(parsed(b), parsed(a)), is_loop) << b << " " << a;
+}
+
+INSTANTIATE_TEST_SUITE_P(Endpoints, Loops,
+                         testing::Values(Pair{"udpin://0.0.0.0:14540", "udpout://127.0.0.1:14540", true},
+                                         Pair{"udpin://127.0.0.1:14540", "udpout://localhost:14540", true},
+                                         Pair{"tcpin://[::]:5760", "tcpout://[::1]:5760", true},
+                                         Pair{"tcpin://[::]:5760", "tcpout://127.0.0.1:5760", true},
+                                         Pair{"udpin://0.0.0.0:14540", "udpout://[::1]:14540", false},
+                                         Pair{"udpin://127.0.0.1:14540", "udpout://127.0.0.2:14540", false},
+                                         Pair{"udpin://0.0.0.0:14540", "udpout://127.0.0.1:14541", false},
+                                         Pair{"udpin://0.0.0.0:14540", "udpout://192.0.2.1:14540", false},
+                                         Pair{"udpin://0.0.0.0:5760", "tcpout://127.0.0.1:5760", false},
+                                         Pair{"udpin://0.0.0.0:14550", "udpbcast://127.255.255.255:14550", false}));
 
 }  // namespace
 }  // namespace mavloom::endpoint

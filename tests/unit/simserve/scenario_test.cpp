@@ -2,9 +2,11 @@
 // Scenarios as values: places, ids, seeds, precedence. tests/system/program/test_sim.py has the errors.
 #include "mavloom/simserve/scenario.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "simserve/values.hpp"
 
@@ -45,6 +47,16 @@ TEST(Scenario, OptionsComeBeforeTheEnvironmentAndThatBeforeTheFile) {
     EXPECT_EQ(sut.speed, 4);
     EXPECT_EQ(sut.duration, 6s);
     EXPECT_EQ(sut.vehicles[0].options.kind, sim::Kind::rover);
+}
+
+TEST(Scenario, HomeNeedsOnlyAPlace) {
+    const auto home_of = [](std::string_view text) {
+        return read(fmt::format("[[vehicle]]\nhome = \"{}\"\n", text)).vehicles[0].options.home;
+    };
+    const auto place = home_of("47, -8.5"), high = home_of("47,-8.5, 600");
+    EXPECT_EQ(std::tuple(place.latitude_deg, place.longitude_deg, place.altitude_m, place.heading_deg),
+              std::tuple(47.0, -8.5, 489.4, 0.0));
+    EXPECT_EQ(std::tuple(high.altitude_m, high.heading_deg), std::tuple(600.0, 0.0));
 }
 
 TEST(Scenario, IdsCountUpAcrossVehicles) {

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// The table of configuration keys outside [[endpoint]]. The file, the environment, the options of `mavloom route` and
+// `mavloom check` all use it. Constant data.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "mavloom/config/config.hpp"
+
+namespace mavloom::config {
+
+// The option of `mavloom route` that sets a key.
+struct KeyOption {
+    const char* name = nullptr;         // "--dedup-ms"; null: no option
+    const char* placeholder = nullptr;  // null: a flag, which sets "true"
+    const char* description = nullptr;
+};
+
+struct ConfigKey {
+    std::string_view section, name;
+    std::string_view default_text;  // empty: not set
+    SetupResult<void> (*set)(Config&, std::string_view);
+    KeyOption option{};
+};
+
+[[nodiscard]] std::span<const ConfigKey> config_keys() noexcept;
+// "router", "ring", "record", "log".
+[[nodiscard]] std::span<const std::string_view> config_sections() noexcept;
+
+}  // namespace mavloom::config
