@@ -51,7 +51,7 @@ constexpr std::string_view footer =
 void add_common(CLI::App& sub, Common& common, const Command& command) {
     auto* const verbose = sub.add_flag("-v,--verbose", common.verbose, "log more to stderr");
     if (!command.is_verbose) verbose->group("");  // taken, but not listed
-    sub.add_flag("-q,--quiet", common.quiet, "log only errors to stderr");
+    sub.add_flag("-q,--quiet", common.quiet, "log only errors to stderr; stdout stays the same");
     if (!command.uses_dialect) return;
     sub.add_option("--dialect", common.dialect_files,
                    "message definitions (MAVLink XML) to add to the built-in ones; may be repeated")

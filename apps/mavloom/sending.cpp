@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "counted.hpp"
+#include "mavloom/base/counted.hpp"
 
 namespace mavloom::app {
 

@@ -10,7 +10,7 @@
 #include <tuple>
 #include <vector>
 
-#include "counted.hpp"
+#include "mavloom/base/counted.hpp"
 
 namespace mavloom::app {
 

@@ -53,6 +53,8 @@ class Columns(dict[str, Array]):
     - `cols["roll"]` has shape (rows,) and the field's own type (float32, uint16, ...).
     - An array field has shape (rows, elements); `cols["voltages[0]"]` is one element of each row. A char[N] field has
       the type S<N>.
+    - HEARTBEAT has a last column, `mode`: the name of the sender's flight mode as text (`<U24`), such as "Hold". It is
+      empty for senders without modes, such as ground stations.
     - `time_ns` is the recorded time (int64, Unix time in ns); `sys` and `comp` are uint8.
     - Trailing zeros that a sender left out are 0.
 
@@ -352,7 +354,7 @@ def check_fields(dialect: Dialect, messages: list[str], fields: list[str]) -> No
 
 
 def has_field(dialect: Dialect, message: str, field: str) -> bool:
-    return any(one.name == field for one in dialect[message].fields)
+    return field == "mode" and message == "HEARTBEAT" or any(one.name == field for one in dialect[message].fields)
 
 
 def time_ns_of(what: str, given: Time | None) -> int | None:
@@ -381,4 +383,6 @@ def time_ns_of(what: str, given: Time | None) -> int | None:
 def _made(dialect: Dialect, name: str, parts: tuple[Array, Array, Array, dict[str, Array]],
           junk_bytes: int) -> Columns:
     time_ns, systems, components, fields = parts
+    if name == "HEARTBEAT" and "mode" in fields:
+        fields["mode"] = fields["mode"].astype("U24")
     return Columns(dialect, name, {"time_ns": time_ns, "sys": systems, "comp": components, **fields}, junk_bytes)

@@ -50,7 +50,8 @@ def link_text(link: Link) -> str:
         return f"<Link {link.name}, opened before a fork>"
     vehicle = f", vehicle {link.target_system}/{link.target_component}" if link.target_system else ""
     peers = f"{stats.peers} peer{'' if stats.peers == 1 else 's'}"
-    return f"<Link {link.name}: {peers}, {stats.frames_in} frames in, {stats.frames_out} out{vehicle}>"
+    frames = f"{stats.frames_in} frame{'' if stats.frames_in == 1 else 's'}"
+    return f"<Link {link.name}: {peers}, {frames} in, {stats.frames_out} out{vehicle}>"
 
 
 def link_html(link: Link) -> str:

@@ -36,6 +36,7 @@ NB_MODULE(_core, module) {
                "The version of the compiled code, such as \"0.1.0\"; between releases, with the commit appended.");
     bind_message(module);
     bind_dialect(module);
+    bind_modes(module);
     bind_parser(module);
     bind_recording(module);
     bind_recording_writer(module);

@@ -35,7 +35,9 @@ Receiver::~Receiver() {
 }
 
 SetupResult<void> Receiver::add(const endpoint::Endpoint& endpoint) {
-    auto added = sources_.add(endpoint, mono_now());
+    const MonoTime now = mono_now();
+    auto added = sources_.add(endpoint, now);
+    if (added) silence_.add(*added, endpoint, now);
     if (added && endpoint.scheme == endpoint::Scheme::tlog) {
         const auto& recording = *sources_.recordings().back();
         names_.emplace(recording.link, recording.name);
@@ -69,8 +71,7 @@ void Receiver::run() {
     for (auto now = mono_now(); !stopping_.load(std::memory_order_relaxed) && now < end_ && !sources_.finished();
          now = mono_now()) {
         if (now >= ask_kernel) {
-            sources_.links().refresh_kernel_drops();
-            queue_->wake();
+            look_after(now);
             ask_kernel = now + look_every;
         }
         const std::size_t room = frames_that_fit();
@@ -83,6 +84,12 @@ void Receiver::run() {
     });
     sources_.add_to(totals_);
     queue_->close();
+}
+
+void Receiver::look_after(MonoTime now) {
+    sources_.links().refresh_kernel_drops();
+    queue_->wake();
+    for (const auto& text : link::look_for_silence(silence_, sources_.links(), now)) notice_(text);
 }
 
 void Receiver::on_frame(const link::RxFrame& rx) {
@@ -111,12 +118,15 @@ void Receiver::count_loss(const link::RxFrame& rx) {
     loss.resync += static_cast<std::uint64_t>(std::int64_t{rx.sequence->resync});
 }
 
-void Receiver::on_link_up(LinkId link, link::EndpointId, std::string_view name) {
+void Receiver::on_link_up(LinkId link, link::EndpointId endpoint, std::string_view name) {
+    silence_.on_link_up(link, endpoint, mono_now());
     {
         const std::lock_guard lock(names_mutex_);
         if (names_.size() < most_names) names_.emplace(link, name);
     }
 }
+
+void Receiver::on_link_down(LinkId link, link::EndpointId, std::string_view) { silence_.on_link_down(link); }
 
 void Receiver::on_notice(link::EndpointId, std::string_view text) {
     if (notice_) notice_(text);

@@ -9,6 +9,7 @@
 namespace mavloom::feed {
 
 RelayOutcome Relay::run(MonoTime end) {
+    watch_sources(mono_now());
     while (!handler_.should_stop() && mono_now() < end && !destinations_.failed() && !sources_.finished()) turn(end);
     sources_.drain(*this, [this] { return Room{0, room(), frames_a_turn}; });
     link::flush(sources_.links(), *this, longest_flush);
@@ -20,7 +21,19 @@ void Relay::turn(MonoTime end) {
     const std::size_t of_recordings = has_started_ ? room() : 0;
     const Nanoseconds longest = of_recordings == 0 ? Nanoseconds{look_for_room} : Nanoseconds{longest_turn};
     sources_.turn(*this, std::min(end, mono_now() + longest), {of_recordings, room(), frames_a_turn});
-    destinations_.look_after_files(mono_now(), [this](std::string_view text) { handler_.on_notice(text); });
+    look_after(mono_now());
+}
+
+void Relay::watch_sources(MonoTime now) {
+    for (const auto& info : sources_.links().endpoints())
+        if (!destinations_.has(info.id)) silence_.add(info.id, info.endpoint, now);
+}
+
+void Relay::look_after(MonoTime now) {
+    destinations_.look_after_files(now, [this](std::string_view text) { handler_.on_notice(text); });
+    if (now < look_due_) return;
+    look_due_ = now + look_interval;
+    for (const auto& text : link::look_for_silence(silence_, sources_.links(), now)) handler_.on_notice(text);
 }
 
 void Relay::wait_for_peers() {

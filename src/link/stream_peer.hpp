@@ -112,7 +112,11 @@ private:
         }
         last_heard = core_.now();
         if (!static_cast<Self*>(this)->accepts(room.first(*count))) return;
-        budget_.spend(*count, *count, [&] { parser_.feed(room.first(*count), core_.now(), sink(wall_now())); });
+        budget_.spend(*count, *count, [&] {
+            const auto take = sink(wall_now());
+            parser_.feed(room.first(*count), core_.now(), take);
+            parser_.report_junk(take);  // so that reports count all of it
+        });
         counters.implausible_unknown.set(parser_.counters().implausible_unknown.value());
         if (parser_.deadline()) core_.tickers.keep(*this);
     }

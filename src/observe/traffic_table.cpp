@@ -77,6 +77,14 @@ void TrafficTable::add(LinkId link, const wire::FrameView& frame, WallTime time)
     row.bytes += frame.size();
 }
 
+void TrafficTable::note_heartbeat(LinkId link, const wire::FrameView& frame) noexcept {
+    const auto row = rows_.find(key_of(link, frame.source(), frame.id()));
+    if (row == rows_.end()) return;
+    auto& kept = row->second.heartbeat;
+    kept = {};
+    std::ranges::copy(frame.payload().first(std::min(frame.payload().size(), kept.size())), kept.begin());
+}
+
 std::vector<TrafficRow> TrafficTable::rows() const {
     std::vector<TrafficRow> rows;
     rows.reserve(rows_.size());

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "mavloom/base/counted.hpp"
 #include "mavloom/dialect/rates.hpp"
 
 namespace mavloom::router {
@@ -133,7 +134,7 @@ void RoutedEndpoints::refill_lines() {
         if (endpoint == nullptr) continue;
         if (const auto more = endpoint->lines.refill(); more != 0)
             notice_(config::LogLevel::info,
-                    fmt::format("{}: links came or went {} more times", endpoint->endpoint.label(), more));
+                    fmt::format("{}: links came or went {}", endpoint->endpoint.label(), counted(more, "more time")));
     }
 }
 

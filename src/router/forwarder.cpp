@@ -71,7 +71,10 @@ void Forwarder::remove_link(LinkId link) {
 
 route::Decision Forwarder::decide(const link::RxFrame& rx, std::uint64_t mark) {
     traffic_.add(rx.link, rx.frame, rx.time);
-    if (rx.frame.id() == msg::Heartbeat::id) own_messages_.on_heartbeat(rx.link, rx.frame, links_.now());
+    if (rx.frame.id() == msg::Heartbeat::id) {
+        traffic_.note_heartbeat(rx.link, rx.frame);
+        own_messages_.on_heartbeat(rx.link, rx.frame, links_.now());
+    }
     if (!explainer_) [[likely]]
         return engine_.route(rx.frame, mark, rx.info, rx.link, links_.now(), rx.is_repeated);
     const auto decision = engine_.explain(rx.frame, rx.info, rx.link, links_.now(), why_, rx.is_repeated);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "mavloom/link/silence_watch.hpp"
 #include "mavloom/router/router.hpp"
 #include "router/endpoints.hpp"
 #include "router/forwarder.hpp"
@@ -11,13 +12,20 @@
 
 namespace mavloom::router {
 
+// Whether silence on the endpoint is worth a report. A server may wait for clients as long as it likes.
+static bool expects_frames(const endpoint::Endpoint& endpoint) noexcept {
+    return !endpoint.options.tap && endpoint.scheme != endpoint::Scheme::tcpin;
+}
+
 SetupResult<void> Router::add(const endpoint::Endpoint& endpoint) {
     if (endpoint.scheme == endpoint::Scheme::tlog) return recordings_->add(endpoint);
     if (endpoint.scheme == endpoint::Scheme::shm)
         return setup_error(SetupCode::usage, endpoint::ring_is_no_endpoint(endpoint));
     if (endpoint.options.heartbeat.value_or(false) && !has_heartbeat_)
         return setup_error(SetupCode::usage, fmt::format("{}: {}", endpoint.label(), config::heartbeat_needs_id));
-    return endpoints_->add(endpoint);
+    auto added = endpoints_->add(endpoint);
+    if (added && expects_frames(endpoint)) silence_->add(endpoints_->all().back()->id, endpoint, mono_now());
+    return added;
 }
 
 bool Router::remove(std::string_view label) {
@@ -29,6 +37,7 @@ bool Router::remove(std::string_view label) {
             forwarder_->close_link(link.id);
             forget_link(link.id);
         }
+    silence_->remove(endpoint->id);
     endpoints_->remove(*endpoint);
     return true;
 }

@@ -9,12 +9,12 @@
 
 #include "mavloom/control/post_box.hpp"
 #include "mavloom/link/flush.hpp"
+#include "mavloom/link/silence_watch.hpp"
 #include "mavloom/ring/tap.hpp"
 #include "router/endpoints.hpp"
 #include "router/forwarder.hpp"
 #include "router/recordings.hpp"
 #include "router/report/snapshot.hpp"
-#include "router/silence_watch.hpp"
 
 namespace mavloom::router {
 
@@ -30,7 +30,7 @@ Router::Router(const dialect::Dialect& dialect, const config::RouterConfig& conf
       links_(std::move(links)),
       endpoints_(std::make_unique<RoutedEndpoints>(dialect, *links_, notice_)),
       forwarder_(std::make_unique<Forwarder>(dialect, config, *links_)),
-      silence_(std::make_unique<SilenceWatch>()),
+      silence_(std::make_unique<link::SilenceWatch>()),
       posted_(std::make_unique<control::PostBox>()),
       recordings_(std::make_unique<Recordings>(notice_,
                                                [this](std::string text) {
@@ -105,7 +105,7 @@ void Router::on_link_up(LinkId link, link::EndpointId endpoint, std::string_view
     if (!forwarder_->add_link(link, at))
         return notice_(config::LogLevel::warning, fmt::format("{}: more than {} links; the router sends nothing to it",
                                                               name, route::Engine::max_links));
-    if (expects_answer(at.endpoint)) silence_->add(link, endpoint);
+    silence_->on_link_up(link, endpoint, mono_now());
     if (at.lines.spend()) notice_(config::LogLevel::info, fmt::format("{}: up", name));
 }
 
@@ -118,7 +118,7 @@ void Router::on_link_down(LinkId link, link::EndpointId endpoint, std::string_vi
 void Router::forget_link(LinkId link) {
     if (ring_) ring_->on_link_down(link);
     forwarder_->remove_link(link);
-    silence_->remove(link);
+    silence_->on_link_down(link);
 }
 
 void Router::on_notice(link::EndpointId, std::string_view text) { notice_(config::LogLevel::info, text); }
@@ -188,12 +188,7 @@ void Router::look_after(MonoTime now) {
 }
 
 void Router::report_silence(MonoTime now) {
-    const auto silent = silence_->look([this](LinkId link) { return links_->counters(link); }, now);
-    if (silent.empty()) return;
-    const auto endpoints = links_->endpoints();
-    for (const auto& [link, endpoint] : silent)
-        notice_(config::LogLevel::warning,
-                silence_text(*std::ranges::find(endpoints, endpoint, &link::EndpointInfo::id), *links_->counters(link)));
+    for (const auto& text : link::look_for_silence(*silence_, *links_, now)) notice_(config::LogLevel::warning, text);
 }
 
 void Router::look_after_ring() {

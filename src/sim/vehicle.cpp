@@ -176,6 +176,11 @@ VehicleStatus Vehicle::status() const {
             .since_boot = flight.since_boot()};
 }
 
+bool Vehicle::has_mode(std::string_view name) const {
+    const ModeInfo* const mode = parts_->firmware.find_mode(name);
+    return mode != nullptr && mode->behaviour != Behaviour::unavailable;
+}
+
 std::vector<std::string_view> Vehicle::mode_names() const {
     std::vector<std::string_view> names;
     for (const ModeInfo& mode : parts_->firmware.modes())

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <utility>
 
+#include "mavloom/base/counted.hpp"
 #include "mavloom/dialect/dialect.hpp"
 #include "mavloom/endpoint/checks.hpp"
 
@@ -170,7 +171,7 @@ void Connections::on_notice(link::EndpointId, std::string_view text) { parts_.no
 void Connections::refill_lines() {
     for (auto& [endpoint, place] : places_)
         if (const auto suppressed = place.lines.refill(); suppressed != 0)
-            parts_.notice(config::LogLevel::info, fmt::format("{} more links came or went", suppressed));
+            parts_.notice(config::LogLevel::info, counted(suppressed, "more link") + " came or went");
 }
 
 // ---- frames ---------------------------------------------------------------------------------------------------------

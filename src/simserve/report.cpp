@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "control/json_request.hpp"
+#include "mavloom/base/counted.hpp"
 #include "mavloom/control/metrics_text.hpp"
 #include "mavloom/link/snapshot.hpp"
 
@@ -181,8 +182,8 @@ std::string text_of(const std::vector<LinkReport>& reports, double speed) {
     std::string text;
     auto out = std::back_inserter(text);
     for (const auto& report : reports) {
-        fmt::format_to(out, "{}: {} frames, {} bytes, {} sequence gaps\n", report.link, report.frames, report.bytes,
-                       report.gaps);
+        fmt::format_to(out, "{}: {}, {}, {}\n", report.link, counted(report.frames, "frame"),
+                       counted(report.bytes, "byte"), counted(report.gaps, "sequence gap"));
         fmt::format_to(out, "  {:>3}  {:<32} {:>10} {:>12} {:>9} {:>8} {:>12} {:>12}\n", "sys", "message", "asked Hz",
                        "achieved Hz", "sent", "skipped", "median, ms", "99 %, ms");
         for (const auto& stream : report.streams) {

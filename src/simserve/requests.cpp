@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <optional>
 #include <utility>
 
@@ -90,12 +89,8 @@ Report take_off(Simulator& simulator, const Json& request) {
 }
 
 SetupResult<void> check_mode(const sim::Vehicle& vehicle, std::string_view name) {
+    if (vehicle.has_mode(name)) return {};
     const auto names = vehicle.mode_names();
-    const auto same = [&](std::string_view mode) {
-        return std::ranges::equal(mode, name,
-                                  [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
-    };
-    if (std::ranges::any_of(names, same)) return {};
     return setup_error(SetupCode::usage, fmt::format("there is no mode {}{}; there are {}", in_quotes(name),
                                                      did_you_mean(name, names), fmt::join(names, ", ")));
 }

@@ -15,11 +15,25 @@ import pytest
 
 import mavloom
 import pymavlink_vectors as vectors
+from pymavlink import mavutil as pymavlink_mavutil
 from mavloom import messages
 from tlogs import frames_of, packer, record, write
 
 NUMPY = {"uint8_t": "u1", "int8_t": "i1", "uint16_t": "u2", "int16_t": "i2", "uint32_t": "u4", "int32_t": "i4",
          "uint64_t": "u8", "int64_t": "i8", "float": "f4", "double": "f8", "uint8_t_mavlink_version": "u1"}
+
+
+# The names that QGroundControl shows, by those of pymavlink.
+QGC_NAMES = {"MANUAL": "Manual", "STABILIZED": "Stabilized", "ACRO": "Acro", "RATTITUDE": "Rattitude",
+             "ALTCTL": "Altitude", "POSCTL": "Position", "LOITER": "Hold", "MISSION": "Mission", "RTL": "Return",
+             "LAND": "Land", "FOLLOWME": "Follow Target", "OFFBOARD": "Offboard", "TAKEOFF": "Takeoff"}
+
+
+def expected_mode(message):
+    """The name of the mode of a HEARTBEAT of a PX4 or of another sender, but not of an ArduPilot."""
+    assert message.autopilot != 3
+    is_px4 = message.autopilot == 12 and message.base_mode & 1
+    return QGC_NAMES.get(pymavlink_mavutil.mode_string_v10(message), "") if is_px4 else ""
 
 
 def expected_columns(peer, message_class, rows):
@@ -33,7 +47,27 @@ def expected_columns(peer, message_class, rows):
         else:
             shape = (len(rows), field.array_length) if field.array_length else (len(rows),)
             columns[field.name] = np.array([getattr(m, field.name) for _, m in rows], NUMPY[field.type]).reshape(shape)
+    if message_class.msgname == "HEARTBEAT":
+        columns["mode"] = np.array([expected_mode(m) for _, m in rows], "U24")
     return columns
+
+
+def test_the_mode_is_a_column_of_heartbeats(peer, tmp_path):
+    beats = [(2, 12, 50593792), (2, 3, 5), (1, 3, 5), (6, 8, 0), (2, 12, 84148224)]  # type, autopilot, custom_mode
+    sender = packer(peer)
+    path = write(tmp_path / "x.tlog",
+                 [sender.pack(peer.MAVLink_heartbeat_message(kind, pilot, 1, mode, 4, 3))
+                  for kind, pilot, mode in beats])
+
+    columns = mavloom.columns(path, "HEARTBEAT")
+
+    assert columns["mode"].tolist() == ["Hold", "LOITER", "FBWA", "", "Return"] and list(columns)[-1] == "mode"
+    assert (columns["mode"] == "Hold").tolist() == [True, False, False, False, False]
+    assert list(mavloom.columns(path, "HEARTBEAT", fields=["mode"])) == ["time_ns", "sys", "comp", "mode"]
+    assert columns.to_arrow()["mode"].to_pylist()[0] == "Hold" and columns.to_pandas()["mode"].iloc[1] == "LOITER"
+    assert "mode" in mavloom.tables(path, fields="mode")["HEARTBEAT"]
+    with pytest.raises(ValueError):
+        mavloom.columns(path, "ATTITUDE", fields=["mode"])
 
 
 def assert_same(columns, expected):

@@ -88,7 +88,7 @@ def test_newest_messages_are_completed(link, vehicle):
 def test_objects_are_shown(link, vehicle, flight, tmp_path):
     vehicle.send(vehicle.heartbeat())
     beat = link.recv(DEADLINE_S)
-    assert repr(link) == f"<Link {link.name}: 1 peer, 1 frames in, 0 out, vehicle 1/1>"
+    assert repr(link) == f"<Link {link.name}: 1 peer, 1 frame in, 0 out, vehicle 1/1>"
     assert "<td>frames_in</td><td>1</td>" in link._repr_html_() and "<td>1/1</td>" in link._repr_html_()
     assert "<td>MAV_TYPE_QUADROTOR</td>" in beat._repr_html_()
     assert repr(link.mav) == f"<Sender of {link.name}: 255/193, next seq 0>"

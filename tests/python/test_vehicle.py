@@ -85,12 +85,15 @@ def test_arm_and_disarm(px4, peer):
 
 
 @pytest.mark.parametrize("px4, mode, params", [(False, "guided", (1, 4, 0)), (False, 6, (1, 6, 0)),
-                                               (True, "MISSION", (1, 4, 4)), (True, 6 << 16, (1, 6, 0))])
+                                               (True, "MISSION", (1, 4, 4)), (True, 6 << 16, (1, 6, 0)),
+                                               (True, "Return", (1, 4, 5)), (True, "AUTO.RTL", (1, 4, 5)),
+                                               (False, "Position Hold", (1, 16, 0))])
 def test_modes_by_name_and_number(px4, mode, params, peer):
     with flown(peer, px4=px4) as (vehicle, stub):
         vehicle.set_mode(mode)
         assert (stub.messages[0].param1, stub.messages[0].param2, stub.messages[0].param3) == params
-        assert vehicle.mode == {"guided": "GUIDED", 6: "RTL", "MISSION": "MISSION", 6 << 16: "OFFBOARD"}[mode]
+        assert vehicle.mode == {"guided": "GUIDED", 6: "RTL", "MISSION": "Mission", 6 << 16: "Offboard",
+                                "Return": "Return", "AUTO.RTL": "Return", "Position Hold": "POSHOLD"}[mode]
 
 
 def test_modes_and_kinds_of_missions_that_are_none(peer):

@@ -15,7 +15,7 @@
 
 #include "bench_sim.hpp"
 #include "command.hpp"
-#include "counted.hpp"
+#include "mavloom/base/counted.hpp"
 #include "mavloom/endpoint/endpoint.hpp"
 #include "mavloom/message/format.hpp"
 #include "mavloom/record/tlog_reader.hpp"

@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-#include "counted.hpp"
+#include "mavloom/base/counted.hpp"
 #include "mavloom/dialect/dialect.hpp"
 #include "mavloom/sim/vehicle.hpp"
 #include "mavloom/wire/datagram_parser.hpp"

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
-#include "counted.hpp"
+#include "mavloom/base/counted.hpp"
 #include "mavloom/base/shown.hpp"
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/control/control.hpp"
@@ -227,8 +227,10 @@ void print_source(fmt::appender out, const Json& o) {
 void print_message_rate(fmt::appender out, const Json& o) {
     const auto name = o.at("name").is_null() ? fmt::format("{}", o.value("id", 0)) : o.at("name").get<std::string>();
     const auto frames = o.value("frames", 0ull);
-    fmt::format_to(out, "message {:<32} {:>3}/{:<3} {:>10} {:<6} {:>9.2f} Hz  {}\n", name, o.value("sys", 0),
-                   o.value("comp", 0), frames, plural(frames, "frame"), o.value("rate_hz", 0.0), o.value("link", ""));
+    const auto mode = o.find("mode");
+    fmt::format_to(out, "message {:<32} {:>3}/{:<3} {:>10} {:<6} {:>9.2f} Hz  {}{}\n", name, o.value("sys", 0),
+                   o.value("comp", 0), frames, plural(frames, "frame"), o.value("rate_hz", 0.0), o.value("link", ""),
+                   mode == o.end() || mode->is_null() ? "" : fmt::format("  mode {}", mode->get<std::string>()));
 }
 void print_recording(fmt::appender out, const Json& o) {
     fmt::format_to(out, "recording {}: {}\n", o.value("endpoint", ""), nonzero(o, {}));

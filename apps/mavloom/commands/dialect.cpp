@@ -10,8 +10,8 @@
 #include <system_error>
 
 #include "command.hpp"
-#include "counted.hpp"
 #include "dialect_print.hpp"
+#include "mavloom/base/counted.hpp"
 #include "mavloom/base/shown.hpp"
 #include "mavloom/base/suggest.hpp"
 

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <vector>
 
-#include "counted.hpp"
+#include "mavloom/base/counted.hpp"
 
 namespace mavloom::app {
 namespace {

@@ -3,7 +3,7 @@
 #include <unistd.h>
 
 #include "command.hpp"
-#include "counted.hpp"
+#include "mavloom/base/counted.hpp"
 #include "mavloom/dialect/terms.hpp"
 #include "mavloom/message/format.hpp"
 #include "output.hpp"

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "command.hpp"
-#include "counted.hpp"
+#include "mavloom/base/counted.hpp"
 #include "mavloom/edit/stage.hpp"
 #include "mavloom/endpoint/checks.hpp"
 #include "mavloom/feed/relay.hpp"

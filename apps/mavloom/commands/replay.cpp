@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "command.hpp"
-#include "counted.hpp"
+#include "mavloom/base/counted.hpp"
 #include "mavloom/base/shown.hpp"
 #include "mavloom/endpoint/checks.hpp"
 #include "mavloom/feed/sources.hpp"

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "counted.hpp"
+#include "mavloom/base/counted.hpp"
 #include "mavloom/dialect/terms.hpp"
 
 namespace mavloom::app {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "counted.hpp"
+#include "mavloom/base/counted.hpp"
 #include "mavloom/endpoint/endpoint.hpp"
 #include "mavloom/link/links.hpp"
 #include "mavloom/shm/ring_follower.hpp"

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "counted.hpp"
+#include "mavloom/base/counted.hpp"
 #include "mavloom/base/shown.hpp"
 
 namespace mavloom::app::shm_parts {

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "counted.hpp"
 #include "lines.hpp"
+#include "mavloom/base/counted.hpp"
 #include "mavloom/endpoint/endpoint.hpp"
 #include "mavloom/shm/ring_info.hpp"
 #include "mavloom/shm/ring_writer.hpp"

@@ -22,6 +22,7 @@
 
 #include "mavloom/feed/sources.hpp"
 #include "mavloom/feed/totals.hpp"
+#include "mavloom/link/silence_watch.hpp"
 #include "mavloom/record/frame_queue.hpp"
 
 namespace mavloom::feed {
@@ -73,13 +74,16 @@ private:
 
     void on_frame(const link::RxFrame& rx) override;
     void on_link_up(LinkId link, link::EndpointId endpoint, std::string_view name) override;
+    void on_link_down(LinkId link, link::EndpointId endpoint, std::string_view why) override;
     void on_notice(link::EndpointId endpoint, std::string_view text) override;
 
     void run();
+    void look_after(MonoTime now);
     [[nodiscard]] std::size_t frames_that_fit() const noexcept;
     void count_loss(const link::RxFrame& rx);
 
     Sources sources_;
+    link::SilenceWatch silence_;  // used by the receiving thread only, once it runs
     std::unique_ptr<record::FrameQueue> queue_;
     Notice notice_;
     std::thread thread_;

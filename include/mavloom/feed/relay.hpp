@@ -19,6 +19,7 @@
 #include "mavloom/feed/destinations.hpp"
 #include "mavloom/feed/sources.hpp"
 #include "mavloom/feed/totals.hpp"
+#include "mavloom/link/silence_watch.hpp"
 
 namespace mavloom::feed {
 
@@ -63,15 +64,22 @@ private:
     static constexpr std::size_t frames_a_turn = 1024;  // from recordings and rings
     static constexpr std::chrono::seconds longest_flush{5}, longest_turn{1};
     static constexpr std::chrono::milliseconds look_for_room{1};  // how often a full queue is checked for room
+    static constexpr std::chrono::seconds look_interval{1};
 
     void on_frame(const link::RxFrame& rx) override;
-    void on_link_up(LinkId, link::EndpointId, std::string_view name) override { handler_.on_link_up(name); }
+    void on_link_up(LinkId link, link::EndpointId endpoint, std::string_view name) override {
+        silence_.on_link_up(link, endpoint, mono_now());
+        handler_.on_link_up(name);
+    }
     void on_link_down(LinkId link, link::EndpointId, std::string_view why) override {
+        silence_.on_link_down(link);
         handler_.on_link_down(sources_.links().link_name(link), why);
     }
     void on_notice(link::EndpointId, std::string_view text) override { handler_.on_notice(text); }
 
     void turn(MonoTime end);
+    void watch_sources(MonoTime now);
+    void look_after(MonoTime now);
     void wait_for_peers();
     [[nodiscard]] std::size_t room() const;
     [[nodiscard]] RelayOutcome finish();
@@ -81,6 +89,8 @@ private:
     edit::Stage& stage_;
     RelayHandler& handler_;
     Signing signing_;
+    link::SilenceWatch silence_;  // of the sources
+    MonoTime look_due_{};
     std::uint64_t unheard_answers_ = 0;
     bool has_started_ = false;  // every destination had a peer
     bool has_waited_ = false;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -24,6 +25,9 @@ struct TrafficRow {
     std::uint64_t count = 0, bytes = 0;
     WallTime first{}, last{};
     Nanoseconds shortest_gap{}, longest_gap{};  // both 0 before the second frame
+
+    // The first bytes of the newest HEARTBEAT, for message::heartbeat_mode: custom_mode, type, autopilot, base_mode.
+    std::array<std::uint8_t, 7> heartbeat{};
 
     // A point in time, and the frame count at that time.
     struct Mark {
@@ -47,6 +51,8 @@ public:
     static constexpr std::size_t max_rows = 32'768;
 
     void add(LinkId link, const wire::FrameView& frame, WallTime time);
+    // Keeps the start of a HEARTBEAT that was added.
+    void note_heartbeat(LinkId link, const wire::FrameView& frame) noexcept;
     // Removes the rows of all links for which `is_there(LinkId)` returns false.
     template <class IsThere>
     void forget_links_unless(IsThere&& is_there) {

@@ -26,6 +26,9 @@
 namespace mavloom::control {
 class PostBox;
 }
+namespace mavloom::link {
+class SilenceWatch;
+}
 namespace mavloom::ring {
 class RingTap;
 }
@@ -35,7 +38,6 @@ namespace mavloom::router {
 class Forwarder;
 class Recordings;
 class RoutedEndpoints;
-class SilenceWatch;
 class Snapshots;
 
 // Whether the metrics distinguish the components of a system.
@@ -150,7 +152,7 @@ private:
     std::unique_ptr<link::Links> links_;
     std::unique_ptr<RoutedEndpoints> endpoints_;
     std::unique_ptr<Forwarder> forwarder_;
-    std::unique_ptr<SilenceWatch> silence_;
+    std::unique_ptr<link::SilenceWatch> silence_;
     std::unique_ptr<control::PostBox> posted_;
     std::unique_ptr<Recordings> recordings_;
     std::unique_ptr<Snapshots> snapshots_;

@@ -80,7 +80,7 @@ public:
     [[nodiscard]] SetupResult<void> disarm(bool force);
     // `altitude_m` above home.
     [[nodiscard]] SetupResult<void> take_off(double altitude_m);
-    // A mode's name, as the vehicle lists it; case does not matter.
+    // A mode's name in any vocabulary of mavloom/message/modes.hpp.
     [[nodiscard]] SetupResult<void> set_mode(std::string_view name);
     [[nodiscard]] SetupResult<void> set_parameter(std::string_view name, double value);
 
@@ -89,6 +89,7 @@ public:
     [[nodiscard]] SystemId system() const noexcept;
     void ask_for_system(std::function<bool(SystemId)> is_free);
     [[nodiscard]] VehicleStatus status() const;
+    [[nodiscard]] bool has_mode(std::string_view name) const;
     [[nodiscard]] std::vector<std::string_view> mode_names() const;
     [[nodiscard]] std::vector<std::string_view> parameter_names() const;
     // The parameter that holds the system id.

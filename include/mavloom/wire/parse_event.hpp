@@ -17,7 +17,8 @@ struct ParseEvent {
         frame,  // a valid frame; `info` is null for an id without definition
         // A candidate in `frame` whose checksum is wrong. Its bytes are scanned again and end up in frames or junk.
         bad_checksum,
-        // `bytes` bytes that belong to no frame. Reported when the run of junk ends, and after every 4,096 bytes of it.
+        // `bytes` bytes that belong to no frame. Reported when the run of junk ends, after every 4,096 bytes of it, and
+        // when the caller asks (StreamParser::report_junk).
         junk,
         // A frame with a valid checksum and an unknown incompatibility flag. The specification forbids handling it.
         unknown_flags,

@@ -44,6 +44,12 @@ public:
         if (used != chunk.size()) keep(chunk.subspan(used));
     }
 
+    // Reports the junk that was found so far, although more of it may follow.
+    template <class Sink>
+    void report_junk(Sink&& sink) {
+        scanner_.end_junk(sink);
+    }
+
     // Call it when `deadline` has passed without new bytes.
     template <class Sink>
     void tick(MonoTime now, Sink&& sink) {

@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Generator
-from typing import TypeVar
 
 from .. import _modes, enums
 from .._core import Message
@@ -18,8 +17,6 @@ from .._hints import near
 from ._exchange import Peer, Protocol, wait_until
 from ._texts import Texts
 from ._turns import exclusive
-
-_T = TypeVar("_T")
 
 ANSWERS = ("COMMAND_ACK", "HEARTBEAT", "STATUSTEXT")
 TAKEOFF_ANSWERS = (*ANSWERS, "GLOBAL_POSITION_INT")
@@ -35,6 +32,7 @@ ACCEPTED, IN_PROGRESS = 0, 5  # MAV_RESULT
 ARM_DISARM, DO_SET_MODE, NAV_TAKEOFF, NAV_LAND, RETURN_TO_LAUNCH, REQUEST_MESSAGE = 400, 176, 22, 21, 20, 512  # MAV_CMD
 GLOBAL_POSITION_INT_ID = 33
 ARMED = 128  # MAV_MODE_FLAG
+COPTER_GUIDED = 4  # ArduPilot's mode
 FORCE = 21196  # param2 of ARM_DISARM: without the vehicle's own checks
 
 
@@ -155,23 +153,19 @@ def arm(peer: Peer, armed: bool, force: bool) -> Protocol[None]:
 
 def mode_params(heartbeat: Message, mode: str | int) -> tuple[float, float, float, int]:
     """The parameters of DO_SET_MODE for a mode, and the custom mode that the heartbeats then report."""
+    number = mode if isinstance(mode, int) else known_mode(heartbeat, mode)
     if heartbeat["autopilot"] == _modes.AUTOPILOT_PX4:
-        if isinstance(mode, int):
-            main, sub = mode >> 16 & 0xff, mode >> 24 & 0xff
-        else:
-            _, main, sub = known_mode(mode, _modes.PX4)
+        main, sub = _modes.px4_mode(number)
         return _modes.CUSTOM_MODE_ENABLED, main, sub, main << 16 | sub << 24
-    if isinstance(mode, int):
-        number = mode
-    else:
-        number = known_mode(mode, _modes.ardupilot_modes(heartbeat["type"]) or {})
     return _modes.CUSTOM_MODE_ENABLED, number, 0, number
 
 
-def known_mode(mode: str, modes: dict[str, _T]) -> _T:
-    if mode.upper() not in modes:
-        raise UsageError(f"unknown mode {mode!r}: this vehicle has {', '.join(sorted(modes)) or 'no modes with names'}")
-    return modes[mode.upper()]
+def known_mode(heartbeat: Message, mode: str) -> int:
+    number = _modes.custom_mode_of(heartbeat["autopilot"], heartbeat["type"], mode)
+    if number is None:
+        names = ", ".join(_modes.mode_names(heartbeat["autopilot"], heartbeat["type"]))
+        raise UsageError(f"unknown mode {mode!r}: this vehicle has {names or 'no modes with names'}")
+    return number
 
 
 def set_mode(peer: Peer, mode: str | int) -> Protocol[None]:
@@ -194,7 +188,8 @@ def takeoff(peer: Peer, altitude: float) -> Protocol[None]:
         nan = math.nan
         yield from command(peer, NAV_TAKEOFF, (nan, nan, nan, nan, nan, nan, here["alt"] / 1000 + altitude))
         return
-    guided = known_mode("GUIDED", _modes.ardupilot_modes(heartbeat["type"]) or {"GUIDED": 4})
+    has_names = _modes.mode_names(heartbeat["autopilot"], heartbeat["type"])
+    guided = known_mode(heartbeat, "GUIDED") if has_names else COPTER_GUIDED
     if heartbeat["custom_mode"] != guided:
         yield from set_mode(peer, guided)
     yield from command(peer, NAV_TAKEOFF, (0, 0, 0, 0, 0, 0, altitude))

@@ -55,13 +55,9 @@ class _Common:
 
     @property
     def modes(self) -> list[str]:
-        """The names that set_mode takes for this vehicle; empty before its first heartbeat."""
+        """The names of this vehicle's modes; empty before its first heartbeat. set_mode takes other names, too."""
         beat = self._peer.heartbeat()
-        if beat is None:
-            return []
-        if beat["autopilot"] == _modes.AUTOPILOT_PX4:
-            return sorted(_modes.PX4)
-        return sorted(_modes.ardupilot_modes(beat["type"]) or ())
+        return [] if beat is None else _modes.mode_names(beat["autopilot"], beat["type"])
 
     if not TYPE_CHECKING:
         def __getattr__(self, name: str) -> None:
@@ -119,7 +115,10 @@ class Vehicle(_Common):
         run(self._peer, _commands.ANSWERS, _commands.arm(self._peer, False, force))
 
     def set_mode(self, mode: str | int) -> None:
-        """Changes the flight mode, and waits until the heartbeats report it. `modes` has the names."""
+        """Changes the flight mode, and waits until the heartbeats report it.
+
+        `modes` has the names. Other names for a mode, and any case, work too: "Hold", "LOITER" and "AUTO.LOITER".
+        """
         run(self._peer, _commands.ANSWERS, _commands.set_mode(self._peer, mode))
 
     def takeoff(self, altitude: float) -> None:

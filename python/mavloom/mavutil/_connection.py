@@ -15,6 +15,7 @@ from .._core import MavutilState, MavutilTypes, hides_extensions, is_vehicle
 from .._errors import UsageError
 from .._hints import near
 from . import _current
+from . import _modes as tables
 from ._conditions import evaluate_condition
 from ._messages import MAVLink_message, as_bytes
 from ._protocol import signing_time
@@ -251,7 +252,7 @@ class Connection:
         if not self.probably_vehicle_heartbeat(message):
             return
         state = self.sysid_state[message.get_srcSystem()]
-        state.flightmode = _modes.mode_name(message.autopilot, message.type, message.base_mode, message.custom_mode)
+        state.flightmode = tables.mode_name(message.autopilot, message.type, message.base_mode, message.custom_mode)
         state.mav_type = message.type
         state.mav_autopilot = message.autopilot
         state.armed = message.base_mode & ARMED
@@ -263,7 +264,7 @@ class Connection:
         state = self.sysid_state[message.get_srcSystem()]
         state.mav_type = message.type
         state.mav_autopilot = message.autopilot
-        state.flightmode = _modes.slow_link_name(message.autopilot, message.type, message.custom_mode)
+        state.flightmode = tables.slow_link_name(message.autopilot, message.type, message.custom_mode)
         if message.autopilot == _modes.AUTOPILOT_ARDUPILOT:
             state.base_mode = message.custom0
             state.armed = message.custom0 & ARMED

@@ -89,8 +89,8 @@ class mavfile(Connection):
         """Requests a mode of ArduPilot."""
         number: Any = mode
         if isinstance(mode, str):
-            number = (self.mode_mapping() or {}).get(mode.upper())
-            if number is None or isinstance(number, tuple):
+            number = _modes.custom_mode_of(_modes.AUTOPILOT_ARDUPILOT, self.mav_type, mode)
+            if number is None:
                 print(f"Unknown mode '{mode}'")
                 return
         self._command(DO_SET_MODE, _modes.CUSTOM_MODE_ENABLED, number)
@@ -99,8 +99,8 @@ class mavfile(Connection):
         """Requests a mode of PX4, by name or by its three numbers."""
         base_mode: Any = mode
         if isinstance(mode, str):
-            numbers = (self.mode_mapping() or {}).get(mode.upper())
-            if not isinstance(numbers, tuple):
+            numbers = tables.px4_numbers(mode)
+            if numbers is None:
                 print(f"Unknown mode '{mode}'")
                 return
             base_mode, custom_mode, custom_sub_mode = numbers

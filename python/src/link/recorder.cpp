@@ -5,6 +5,7 @@
 
 #include "errors.hpp"
 #include "gil.hpp"
+#include "mavloom/base/counted.hpp"
 #include "strings.hpp"
 
 namespace mavloom::python {
@@ -53,7 +54,7 @@ void LinkRecorder::close() {
     const auto lost = recorder_->counters().queue_full.value() + recorder_->counters().write_error.value();
     if (lost != 0)
         raise(SetupError{SetupCode::system, 0,
-                         fmt::format("{}: {} frames were not recorded{}{}", recorder_->label(), lost,
+                         fmt::format("{}: {} not recorded{}{}", recorder_->label(), counted(lost, "frame"),
                                      said.empty() ? "" : ": ", said.empty() ? "" : said.front())});
     for (const auto& text : said) warn(text);
 }
@@ -102,8 +103,8 @@ void bind_link_recorder(nb::module_& module) {
             "__exit__", [](LinkRecorder& r, const nb::args&) { r.close(); },
             nb::sig("def __exit__(self, *args: object) -> None"))
         .def("__repr__", [](const LinkRecorder& r) {
-            return fmt::format("<LinkRecorder {}: {} frames>", r.recorder().label(),
-                               r.recorder().counters().frames.value());
+            return fmt::format("<LinkRecorder {}: {}>", r.recorder().label(),
+                               counted(r.recorder().counters().frames.value(), "frame"));
         });
 }
 

@@ -53,6 +53,9 @@ void gather(const Rows& rows, const Column& column, std::uint8_t* to) {
 
 }  // namespace
 
+static_assert(std::ranges::all_of(message::px4_flight_modes,
+                                  [](const message::FlightMode& mode) { return mode.name.size() < Rows::mode_bytes; }));
+
 void Rows::add(std::int64_t time_ns, const wire::FrameView& frame) {
     if (count_ == blocks_.size() * rows_per_block) blocks_.push_back(room_for(rows_per_block * stride_));
     auto* row = blocks_[count_ / rows_per_block].get() + count_ % rows_per_block * stride_;
@@ -64,6 +67,10 @@ void Rows::add(std::int64_t time_ns, const wire::FrameView& frame) {
     // Not memcpy: GCC 12 compiles it to `rep movs` here, which takes five times as long.
     std::copy_n(payload.begin(), length, row + prefix_bytes);
     if (length != payload_length_) std::memset(row + prefix_bytes + length, 0, payload_length_ - length);
+    if (has_mode_) {
+        const auto mode = message::heartbeat_mode(payload);
+        std::fill_n(std::ranges::copy(mode, row + prefix_bytes + payload_length_).out, mode_bytes - mode.size(), 0);
+    }
     ++count_;
 }
 
@@ -88,7 +95,7 @@ Table::Table(const dialect::Message& message, std::span<const std::size_t> field
     columns_.push_back({u8, Rows::system_offset, 1});
     columns_.push_back({u8, Rows::component_offset, 1});
     for (const auto place : fields_) {
-        const auto& field = message.fields[place];
+        const auto field = field_at(message, place);
         columns_.push_back({field.type, Rows::prefix_bytes + field.offset, field.count()});
     }
 }
@@ -121,10 +128,26 @@ Values Table::take(std::size_t column) {
     return values;
 }
 
+bool has_column(const dialect::Message& message, std::string_view name) noexcept {
+    return message.find(name) != nullptr || (name == mode_column && message::has_mode(message));
+}
+
+dialect::Field field_at(const dialect::Message& message, std::size_t place) noexcept {
+    if (place < message.fields.size()) return message.fields[place];
+    dialect::Field mode;
+    mode.name = mode_column;
+    mode.type = dialect::FieldType::char8;
+    mode.offset = message.wire.max_length;
+    mode.array_length = Rows::mode_bytes;
+    return mode;
+}
+
 std::vector<std::size_t> fields_in(const dialect::Message& message, const FieldNames& names) {
     std::vector<std::size_t> places;
     for (std::size_t place = 0; place < message.fields.size(); ++place)
         if (!names || std::ranges::find(*names, message.fields[place].name) != names->end()) places.push_back(place);
+    if (message::has_mode(message) && (!names || std::ranges::find(*names, mode_column) != names->end()))
+        places.push_back(message.fields.size());
     return places;
 }
 

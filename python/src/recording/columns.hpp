@@ -20,6 +20,7 @@
 #include "mavloom/dialect/dialect.hpp"
 #include "mavloom/feed/filter.hpp"
 #include "mavloom/feed/instance.hpp"
+#include "mavloom/message/modes.hpp"
 #include "mavloom/record/tlog_reader.hpp"
 
 namespace mavloom::python {
@@ -32,30 +33,35 @@ struct RowsQuery {
     std::int64_t begin = std::numeric_limits<std::int64_t>::min(), end = std::numeric_limits<std::int64_t>::max();
 };
 
-// Rows in blocks. Each row holds receive time, source and the payload in its full length. Adding a row never moves the
-// others.
+// Rows in blocks. Each row holds receive time, source, the payload in its full length and, of a HEARTBEAT, the name of
+// the sender's mode. Adding a row never moves the others.
 class Rows {
 public:
     explicit Rows(const dialect::Message& message) noexcept
-        : payload_length_(message.wire.max_length), stride_((prefix_bytes + payload_length_ + 7) / 8 * 8) {}
+        : payload_length_(message.wire.max_length),
+          has_mode_(message::has_mode(message)),
+          stride_((prefix_bytes + payload_length_ + (has_mode_ ? mode_bytes : 0) + 7) / 8 * 8) {}
 
     void add(std::int64_t time_ns, const wire::FrameView& frame);
     [[nodiscard]] std::size_t count() const noexcept { return count_; }
     // Forgets the rows and keeps their memory.
     void clear() noexcept { count_ = 0; }
     // Calls take(first, rows, stride) for each run of rows that lie `stride` bytes apart. A row is eight bytes of time,
-    // then system, component and payload.
+    // then system, component, payload and mode.
     template <class Take>
     void each_run(Take take) const {
         for (std::size_t done = 0; done < count_; done += rows_per_block)
             take(blocks_[done / rows_per_block].get(), std::min(rows_per_block, count_ - done), stride_);
     }
     static constexpr std::size_t time_offset = 0, system_offset = 8, component_offset = 9, prefix_bytes = 10;
+    static constexpr std::size_t mode_bytes = 24;  // the longest name, and the zeros that follow it
 
 private:
     static constexpr std::size_t rows_per_block = 1024;
 
-    std::size_t payload_length_, stride_;
+    std::size_t payload_length_;
+    bool has_mode_;
+    std::size_t stride_;
     std::size_t count_ = 0;
     std::vector<std::unique_ptr<std::uint8_t[]>> blocks_;
 };
@@ -88,6 +94,13 @@ struct Column {
 
 // Values in native byte order, row by row.
 using Values = std::unique_ptr<std::uint8_t[]>;
+
+// The last column of HEARTBEAT. It is no field: its position is that after the last field.
+inline constexpr std::string_view mode_column = "mode";
+// Whether the message has a field of this name, or the column `mode`.
+[[nodiscard]] bool has_column(const dialect::Message& message, std::string_view name) noexcept;
+// The field at a position, or what the column `mode` would be as a field.
+[[nodiscard]] dialect::Field field_at(const dialect::Message& message, std::size_t place) noexcept;
 
 // The fields that become columns, by name; all if it is empty.
 using FieldNames = std::optional<std::vector<std::string>>;

@@ -58,8 +58,10 @@ nb::tuple arrays_of(const Definitions& definitions, Table& table) {
     auto components = array_of<std::uint8_t>(take(table, Table::component_column), rows, 0);
     nb::dict fields;
     std::size_t column = Table::first_field;
-    for (const auto place : table.fields())
-        fields[names[place]] = array_of(take(table, column++), rows, table.message().fields[place]);
+    for (const auto place : table.fields()) {
+        const nb::object name = place < names.size() ? nb::object(names[place]) : nb::cast(mode_column);
+        fields[name] = array_of(take(table, column++), rows, field_at(table.message(), place));
+    }
     return nb::make_tuple(times, systems, components, fields);
 }
 
@@ -67,7 +69,7 @@ nb::tuple arrays_of(const Definitions& definitions, Table& table) {
 std::vector<std::size_t> places_of(const dialect::Dialect& dialect, const dialect::Message& message,
                                    const FieldNames& fields) {
     for (const auto& name : fields.value_or(std::vector<std::string>{}))
-        if (message.find(name) == nullptr) raise(dialect.field(fmt::format("{}.{}", message.name, name)).error());
+        if (!has_column(message, name)) raise(dialect.field(fmt::format("{}.{}", message.name, name)).error());
     return fields_in(message, fields);
 }
 
@@ -119,7 +121,7 @@ void check_fields(const dialect::Dialect& dialect, const Tables& tables) {
     for (const auto& name : tables.fields.value_or(std::vector<std::string>{})) {
         bool found = false;
         for (std::size_t i = 0; i < infos.size() && !found; ++i)
-            found = tables.wanted[i] && dialect.find(infos[i].id)->find(name) != nullptr;
+            found = tables.wanted[i] && has_column(*dialect.find(infos[i].id), name);
         if (!found) raise_usage(fmt::format("fields: none of the messages has a field '{}'", name));
     }
 }

@@ -12,6 +12,7 @@
 #include "errors.hpp"
 #include "gil.hpp"
 #include "iteration.hpp"
+#include "mavloom/base/counted.hpp"
 #include "mavloom/feed/frame_batch.hpp"
 #include "mavloom/feed/sliced_mutex.hpp"
 #include "mavloom/record/tlog_reader.hpp"
@@ -73,7 +74,7 @@ public:
     [[nodiscard]] std::string shown() {
         const auto lock = lock_without_gil(mutex_);
         if (!reader_) return fmt::format("<Recording {}, closed>", path_);
-        return fmt::format("<Recording {}: {} records read>", path_, reader_->counters().records.value());
+        return fmt::format("<Recording {}: {} read>", path_, counted(reader_->counters().records.value(), "record"));
     }
 
     [[nodiscard]] RecordingStats stats() {

@@ -11,6 +11,7 @@
 #include "errors.hpp"
 #include "gil.hpp"
 #include "integer.hpp"
+#include "mavloom/base/counted.hpp"
 #include "mavloom/record/rotating_writer.hpp"
 #include "mavutil/message.hpp"
 #include "message/encode.hpp"
@@ -141,7 +142,7 @@ void bind_recording_writer(nb::module_& module) {
             "__exit__", [](RecordingWriter& writer, const nb::args&) { writer.close(); },
             nb::sig("def __exit__(self, *args: object) -> None"))
         .def("__repr__", [](RecordingWriter& writer) {
-            return fmt::format("<RecordingWriter {}: {} records>", writer.path(), writer.records());
+            return fmt::format("<RecordingWriter {}: {}>", writer.path(), counted(writer.records(), "record"));
         });
 }
 

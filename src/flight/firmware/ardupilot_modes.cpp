@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Numbers and names of ArduPilot's modes: enums COPTER_MODE, PLANE_MODE and ROVER_MODE of its MAVLink dialect.
+// What the vehicle does in ArduPilot's modes. mavloom/message/modes.hpp has their numbers.
 #include <array>
 
 #include "flight/firmware/tables.hpp"
+#include "mavloom/message/modes.hpp"
 
 namespace mavloom::flight {
 
@@ -12,99 +13,108 @@ constexpr std::uint8_t by_pilot = base_custom | base_stabilize | base_manual_inp
 constexpr std::uint8_t by_autopilot = by_pilot | base_guided;
 constexpr std::uint8_t by_hand = base_custom | base_manual_input;
 
-constexpr ModeInfo mode_of(std::uint32_t number, std::string_view name, Behaviour behaviour, std::uint8_t base_mode,
+constexpr ModeInfo mode_of(std::string_view name, Behaviour behaviour, std::uint8_t base_mode,
                            std::uint32_t properties = 0) {
-    return {
-        .name = name, .custom_mode = number, .behaviour = behaviour, .base_mode = base_mode, .properties = properties};
+    return {.name = name, .behaviour = behaviour, .base_mode = base_mode, .properties = properties};
 }
-constexpr ModeInfo piloted_mode(std::uint32_t number, std::string_view name, Behaviour behaviour) {
-    return mode_of(number, name, behaviour, by_pilot);
+constexpr ModeInfo piloted_mode(std::string_view name, Behaviour behaviour) {
+    return mode_of(name, behaviour, by_pilot);
 }
-constexpr ModeInfo auto_mode(std::uint32_t number, std::string_view name, Behaviour behaviour) {
-    return mode_of(number, name, behaviour, by_autopilot, mode_auto);
+constexpr ModeInfo auto_mode(std::string_view name, Behaviour behaviour) {
+    return mode_of(name, behaviour, by_autopilot, mode_auto);
 }
 // A mode that needs equipment, or another kind of frame, that the vehicle does not have.
-constexpr ModeInfo absent_mode(std::uint32_t number, std::string_view name) {
-    ModeInfo mode = mode_of(number, name, Behaviour::unavailable, by_pilot, mode_not_selectable);
+constexpr ModeInfo absent_mode(std::string_view name) {
+    ModeInfo mode = mode_of(name, Behaviour::unavailable, by_pilot, mode_not_selectable);
     mode.is_listed = false;
     return mode;
 }
 
-constexpr std::array ardupilot_copter_modes{
-    piloted_mode(0, "STABILIZE", Behaviour::stabilized),
-    piloted_mode(1, "ACRO", Behaviour::acro),
-    piloted_mode(2, "ALT_HOLD", Behaviour::altitude),
-    auto_mode(3, "AUTO", Behaviour::mission),
-    auto_mode(4, "GUIDED", Behaviour::offboard),
-    piloted_mode(5, "LOITER", Behaviour::position),
-    auto_mode(6, "RTL", Behaviour::return_home),
-    auto_mode(7, "CIRCLE", Behaviour::orbit),
-    auto_mode(9, "LAND", Behaviour::land),
-    piloted_mode(11, "DRIFT", Behaviour::altitude),
-    piloted_mode(13, "SPORT", Behaviour::altitude),
-    absent_mode(14, "FLIP"),
-    piloted_mode(15, "AUTOTUNE", Behaviour::altitude),
-    piloted_mode(16, "POSHOLD", Behaviour::position),
-    auto_mode(17, "BRAKE", Behaviour::brake),
-    absent_mode(18, "THROW"),
-    auto_mode(19, "AVOID_ADSB", Behaviour::hold),
-    auto_mode(20, "GUIDED_NOGPS", Behaviour::offboard),
-    auto_mode(21, "SMART_RTL", Behaviour::return_home),
-    piloted_mode(22, "FLOWHOLD", Behaviour::position),
-    auto_mode(23, "FOLLOW", Behaviour::follow),
-    piloted_mode(24, "ZIGZAG", Behaviour::position),
-    absent_mode(25, "SYSTEMID"),
-    absent_mode(26, "AUTOROTATE"),
-    auto_mode(27, "AUTO_RTL", Behaviour::return_home),
-    absent_mode(28, "TURTLE"),
-};
+template <std::size_t count>
+consteval std::array<ModeInfo, count> numbered(std::array<ModeInfo, count> modes,
+                                               std::span<const message::FlightMode> numbers) {
+    for (ModeInfo& mode : modes) mode.custom_mode = message::number_of_mode(numbers, mode.name);
+    return modes;
+}
 
-constexpr std::array ardupilot_plane_modes{
-    mode_of(0, "MANUAL", Behaviour::manual, by_hand),
-    auto_mode(1, "CIRCLE", Behaviour::orbit),
-    piloted_mode(2, "STABILIZE", Behaviour::stabilized),
-    piloted_mode(3, "TRAINING", Behaviour::stabilized),
-    piloted_mode(4, "ACRO", Behaviour::acro),
-    piloted_mode(5, "FBWA", Behaviour::stabilized),
-    piloted_mode(6, "FBWB", Behaviour::altitude),
-    piloted_mode(7, "CRUISE", Behaviour::altitude),
-    piloted_mode(8, "AUTOTUNE", Behaviour::stabilized),
-    auto_mode(10, "AUTO", Behaviour::mission),
-    auto_mode(11, "RTL", Behaviour::return_home),
-    auto_mode(12, "LOITER", Behaviour::hold),
-    auto_mode(13, "TAKEOFF", Behaviour::takeoff),
-    auto_mode(14, "AVOID_ADSB", Behaviour::hold),
-    auto_mode(15, "GUIDED", Behaviour::offboard),
-    absent_mode(16, "INITIALISING"),
-    absent_mode(17, "QSTABILIZE"),
-    absent_mode(18, "QHOVER"),
-    absent_mode(19, "QLOITER"),
-    absent_mode(20, "QLAND"),
-    absent_mode(21, "QRTL"),
-    absent_mode(22, "QAUTOTUNE"),
-    absent_mode(23, "QACRO"),
-    auto_mode(24, "THERMAL", Behaviour::hold),
-    absent_mode(25, "LOITER2QLAND"),
-    auto_mode(26, "AUTOLAND", Behaviour::land),
+constexpr std::array copter_rows{
+    piloted_mode("STABILIZE", Behaviour::stabilized),
+    piloted_mode("ACRO", Behaviour::acro),
+    piloted_mode("ALT_HOLD", Behaviour::altitude),
+    auto_mode("AUTO", Behaviour::mission),
+    auto_mode("GUIDED", Behaviour::offboard),
+    piloted_mode("LOITER", Behaviour::position),
+    auto_mode("RTL", Behaviour::return_home),
+    auto_mode("CIRCLE", Behaviour::orbit),
+    auto_mode("LAND", Behaviour::land),
+    piloted_mode("DRIFT", Behaviour::altitude),
+    piloted_mode("SPORT", Behaviour::altitude),
+    absent_mode("FLIP"),
+    piloted_mode("AUTOTUNE", Behaviour::altitude),
+    piloted_mode("POSHOLD", Behaviour::position),
+    auto_mode("BRAKE", Behaviour::brake),
+    absent_mode("THROW"),
+    auto_mode("AVOID_ADSB", Behaviour::hold),
+    auto_mode("GUIDED_NOGPS", Behaviour::offboard),
+    auto_mode("SMART_RTL", Behaviour::return_home),
+    piloted_mode("FLOWHOLD", Behaviour::position),
+    auto_mode("FOLLOW", Behaviour::follow),
+    piloted_mode("ZIGZAG", Behaviour::position),
+    absent_mode("SYSTEMID"),
+    absent_mode("AUTOROTATE"),
+    auto_mode("AUTO_RTL", Behaviour::return_home),
+    absent_mode("TURTLE"),
 };
+constexpr auto copter_modes = numbered(copter_rows, message::copter_flight_modes);
 
-constexpr std::array ardupilot_rover_modes{
-    mode_of(0, "MANUAL", Behaviour::manual, by_hand), piloted_mode(1, "ACRO", Behaviour::acro),
-    piloted_mode(3, "STEERING", Behaviour::acro),     auto_mode(4, "HOLD", Behaviour::hold),
-    auto_mode(5, "LOITER", Behaviour::hold),          auto_mode(6, "FOLLOW", Behaviour::follow),
-    piloted_mode(7, "SIMPLE", Behaviour::manual),     absent_mode(8, "DOCK"),
-    auto_mode(9, "CIRCLE", Behaviour::orbit),         auto_mode(10, "AUTO", Behaviour::mission),
-    auto_mode(11, "RTL", Behaviour::return_home),     auto_mode(12, "SMART_RTL", Behaviour::return_home),
-    auto_mode(15, "GUIDED", Behaviour::offboard),     absent_mode(16, "INITIALISING"),
+constexpr std::array plane_rows{
+    mode_of("MANUAL", Behaviour::manual, by_hand),
+    auto_mode("CIRCLE", Behaviour::orbit),
+    piloted_mode("STABILIZE", Behaviour::stabilized),
+    piloted_mode("TRAINING", Behaviour::stabilized),
+    piloted_mode("ACRO", Behaviour::acro),
+    piloted_mode("FBWA", Behaviour::stabilized),
+    piloted_mode("FBWB", Behaviour::altitude),
+    piloted_mode("CRUISE", Behaviour::altitude),
+    piloted_mode("AUTOTUNE", Behaviour::stabilized),
+    auto_mode("AUTO", Behaviour::mission),
+    auto_mode("RTL", Behaviour::return_home),
+    auto_mode("LOITER", Behaviour::hold),
+    auto_mode("TAKEOFF", Behaviour::takeoff),
+    auto_mode("AVOID_ADSB", Behaviour::hold),
+    auto_mode("GUIDED", Behaviour::offboard),
+    absent_mode("INITIALISING"),
+    absent_mode("QSTABILIZE"),
+    absent_mode("QHOVER"),
+    absent_mode("QLOITER"),
+    absent_mode("QLAND"),
+    absent_mode("QRTL"),
+    absent_mode("QAUTOTUNE"),
+    absent_mode("QACRO"),
+    auto_mode("THERMAL", Behaviour::hold),
+    absent_mode("LOITERALTQLAND"),
+    auto_mode("AUTOLAND", Behaviour::land),
 };
+constexpr auto plane_modes = numbered(plane_rows, message::plane_flight_modes);
+
+constexpr std::array rover_rows{
+    mode_of("MANUAL", Behaviour::manual, by_hand), piloted_mode("ACRO", Behaviour::acro),
+    piloted_mode("STEERING", Behaviour::acro),     auto_mode("HOLD", Behaviour::hold),
+    auto_mode("LOITER", Behaviour::hold),          auto_mode("FOLLOW", Behaviour::follow),
+    piloted_mode("SIMPLE", Behaviour::manual),     absent_mode("DOCK"),
+    auto_mode("CIRCLE", Behaviour::orbit),         auto_mode("AUTO", Behaviour::mission),
+    auto_mode("RTL", Behaviour::return_home),      auto_mode("SMART_RTL", Behaviour::return_home),
+    auto_mode("GUIDED", Behaviour::offboard),      absent_mode("INITIALISING"),
+};
+constexpr auto rover_modes = numbered(rover_rows, message::rover_flight_modes);
 
 }  // namespace
 
 std::span<const ModeInfo> ardupilot_modes(Kind kind) noexcept {
     switch (kind) {
-        case Kind::quad: return ardupilot_copter_modes;
-        case Kind::plane: return ardupilot_plane_modes;
-        default: return ardupilot_rover_modes;
+        case Kind::quad: return copter_modes;
+        case Kind::plane: return plane_modes;
+        default: return rover_modes;
     }
 }
 

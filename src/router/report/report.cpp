@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "control/json_lines.hpp"
+#include "mavloom/message/modes.hpp"
 #include "router/report/pieces.hpp"
 #include "router/report/snapshot.hpp"
 
@@ -30,20 +31,28 @@ AppendRow link_lines(const Snapshot& s) {
     return each_of(s.links, [&s](std::string& text, const auto& link) { control::append_link(text, s, link); });
 }
 
+// The name of the mode in the newest HEARTBEAT; null if it has none.
+Json mode_of(const observe::TrafficRow& row) {
+    const auto mode = message::heartbeat_mode(row.heartbeat);
+    return mode.empty() ? Json() : Json(mode);
+}
+
 AppendRow message_lines(const Snapshot& s) {
     return each_of(s.messages, [&s](std::string& text, const observe::TrafficRow& row) {
         const auto* message = s.dialect->find(row.id);
         const auto* link = s.link(row.link);
         if (link == nullptr) return;
-        append_line(text, {{"kind", "message"},
-                           {"link", link->name},
-                           {"sys", row.source.system.value},
-                           {"comp", row.source.component.value},
-                           {"id", row.id.value},
-                           {"name", message == nullptr ? Json() : Json(message->name)},
-                           {"frames", row.count},
-                           {"bytes", row.bytes},
-                           {"rate_hz", row.recent_rate_hz(s.time)}});
+        Json line{{"kind", "message"},
+                  {"link", link->name},
+                  {"sys", row.source.system.value},
+                  {"comp", row.source.component.value},
+                  {"id", row.id.value},
+                  {"name", message == nullptr ? Json() : Json(message->name)},
+                  {"frames", row.count},
+                  {"bytes", row.bytes},
+                  {"rate_hz", row.recent_rate_hz(s.time)}};
+        if (message != nullptr && message::has_mode(*message)) line["mode"] = mode_of(row);
+        append_line(text, std::move(line));
     });
 }
 

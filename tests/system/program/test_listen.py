@@ -191,6 +191,19 @@ def test_stats_only_prints_the_table_alone(run):
     assert one == json_lines(run("listen", frames.FLIGHT, "--stats", "--json").stdout)[-1:]
 
 
+def test_junk_on_a_stream_is_counted_although_its_run_has_not_ended(spawn):
+    """Issue 30: only whole blocks of 4,096 bytes were counted."""
+    port = harness.free_port(socket.SOCK_STREAM)
+    with socket.create_server(("127.0.0.1", port)) as server:
+        process = spawn("listen", f"tcpout://127.0.0.1:{port}", "--stats-only", "--json")
+        connection, _ = server.accept()
+        with connection:
+            connection.sendall(next(frames.heartbeats(1)) + b"login: ")
+            totals = json_lines(process.stop().stdout)[-1]["stats"]["totals"]
+
+    assert (totals["frames"], totals["junk_bytes"]) == (1, 7)
+
+
 def test_loss_duplicates_and_reordering_are_distinguished(run, tmp_path):
     all_frames = list(frames.heartbeats(100))
     order = [f for i, f in enumerate(all_frames) if i not in (10, 11, 50)]  # three lost

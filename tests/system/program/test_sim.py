@@ -514,6 +514,22 @@ def test_ctl_chooses_a_vehicle(sim, station, ctl):
     assert done.status == 1 and "there is no vehicle 9" in done.stderr
 
 
+@pytest.mark.parametrize("autopilot, words, shown", [
+    ("px4", ("RTL", "Return", "auto.rtl", "AUTO_RTL"), "Return"),
+    ("px4", ("LOITER", "hold", "AUTO.LOITER"), "Hold"),
+    ("ardupilot", ("rtl", "Smart RTL", "SMART_RTL"), None),
+])
+def test_ctl_takes_every_vocabulary_of_modes(sim, station, ctl, autopilot, words, shown):
+    client, url = station
+    running = sim("--to", url, "--autopilot", autopilot)
+    client.until(HEARTBEAT)
+    for word in words:
+        done = ctl(running, "mode", word)
+        assert "there is no mode" not in done.stderr
+        if shown is not None:
+            assert [o["mode"] for o in objects(done)] == [shown], word
+
+
 @pytest.mark.parametrize("args, status, text", [
     (("arm",), 1, ""),  # not ready yet: the vehicle's own text
     (("mode", "Hovr"), 1, "there is no mode 'Hovr'"),

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace mavloom::app {
+namespace mavloom {
 
 // Returns "frame" or "frames". Pass `many` if the plural is not formed with an s.
 [[nodiscard]] inline std::string plural(std::uint64_t count, std::string_view one, std::string_view many = {}) {
@@ -21,4 +21,4 @@ namespace mavloom::app {
     return fmt::format("{} {}", count, plural(count, one, many));
 }
 
-}  // namespace mavloom::app
+}  // namespace mavloom

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/link/silence_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "mavloom/base/counted.hpp"
+#include "mavloom/endpoint/grammar.hpp"
+
+namespace mavloom::link {
+
+namespace {
+
+using endpoint::Scheme;
+
+bool has_sent(const LinkCounters* link) noexcept { return link != nullptr && link->frames_out.value() != 0; }
+
+std::string advice_for_serial(const endpoint::Endpoint& endpoint) {
+    return fmt::format(
+        "is it the right port, is the baud rate right ({}), are the wires crossed (TX to RX), and "
+        "does the far side send MAVLink on that port?",
+        endpoint.options.baud == 0 ? std::string("baud=auto found none yet")
+                                   : fmt::format("{} here; baud=auto tries a list", endpoint.options.baud));
+}
+
+// udpout and udpbcast send first: most programs answer the address that they hear, and no other.
+std::string advice_for_unsent(const endpoint::Endpoint& endpoint) {
+    return fmt::format(
+        "nothing was sent there either, so the far side may not know where to send; to receive what others send to "
+        "port {} of this machine, use udpin://0.0.0.0:{}",
+        endpoint.address.port, endpoint.address.port);
+}
+
+std::string advice_for(const EndpointInfo& info, const LinkCounters* link) {
+    const auto& endpoint = info.endpoint;
+    switch (endpoint.scheme) {
+        case Scheme::serial: return advice_for_serial(endpoint);
+        case Scheme::tcpout:
+            return fmt::format("{} accepted the connection: does it send MAVLink?", endpoint::to_text(endpoint.address));
+        case Scheme::tcpin:
+            return link != nullptr ? "a client is connected: does it send MAVLink?"
+                                   : fmt::format("no client has connected to port {}", info.local_port);
+        case Scheme::udpin:
+            return fmt::format(
+                "does the far side send to port {} and to an address of this machine, and does the firewall let it in?",
+                info.local_port);
+        case Scheme::udpbcast:
+            if (!has_sent(link)) return advice_for_unsent(endpoint);
+            return fmt::format(
+                "does a program on that network listen on port {}, and does the firewall let answers through?",
+                endpoint.address.port);
+        case Scheme::udpmcast:
+            return fmt::format("is a program in the group {}, on the network that iface= or the routing table selects?",
+                               endpoint::to_text(endpoint.address));
+        default:
+            if (!has_sent(link)) return advice_for_unsent(endpoint);
+            return fmt::format(
+                "does the far side listen on {}, and does it answer every sender? PX4 answers only the "
+                "first one: restart it after this program",
+                endpoint::to_text(endpoint.address));
+    }
+}
+
+std::string evidence(const EndpointInfo& info, const LinkCounters* link) {
+    const LinkCounters none;
+    const LinkCounters& heard = link != nullptr ? *link : none;
+    const auto& all = *info.counters;
+    if (const auto bad = heard.bad_signature.value() + all.gone.bad_signature.value(); bad != 0)
+        return fmt::format("{} arrived without the signature that verify= requires: do both sides use the same key?",
+                           counted(bad, "frame"));
+    if (all.wrong_peer.value() != 0)
+        return fmt::format(
+            "{} came from an address other than {}: if the far side answers from another port, receive "
+            "with udpin://",
+            counted(all.wrong_peer.value(), "datagram"), endpoint::to_text(info.endpoint.address));
+    const auto junk = heard.junk_bytes.value() + all.gone.junk_bytes.value() + all.stray_bytes.value();
+    const auto damaged = heard.crc_error.value() + all.gone.crc_error.value();
+    if (junk + damaged == 0) return {};
+    const bool is_serial = info.endpoint.scheme == Scheme::serial;
+    return fmt::format("the received bytes are not MAVLink ({}, {}): {}", counted(junk, "byte"),
+                       counted(damaged, "damaged frame"),
+                       is_serial ? "is the baud rate right (baud=auto tries a list)?" : "is it the right port?");
+}
+
+}  // namespace
+
+void SilenceWatch::add(EndpointId endpoint, const endpoint::Endpoint& opened, MonoTime now) {
+    if (opened.scheme == Scheme::tlog || opened.scheme == Scheme::shm) return;
+    const bool waits = opened.scheme == Scheme::udpin || opened.scheme == Scheme::tcpin;
+    watched_.push_back({.endpoint = endpoint,
+                        .waits_for_peers = waits,
+                        .calls = opened.scheme == Scheme::udpout || opened.scheme == Scheme::udpbcast,
+                        .since = waits ? now : MonoTime::max()});
+}
+
+void SilenceWatch::remove(EndpointId endpoint) {
+    std::erase_if(watched_, [&](const Watched& w) { return w.endpoint == endpoint; });
+}
+
+void SilenceWatch::on_link_up(LinkId link, EndpointId endpoint, MonoTime now) {
+    const auto at = std::ranges::find(watched_, endpoint, &Watched::endpoint);
+    if (at == watched_.end()) return;
+    at->link = link;
+    at->refused = 0;
+    at->sent_since = MonoTime::max();
+    if (!at->waits_for_peers) at->since = now;
+}
+
+void SilenceWatch::on_link_down(LinkId link) {
+    const auto at = std::ranges::find(watched_, link, &Watched::link);
+    if (at == watched_.end()) return;
+    at->link = {};
+    if (!at->waits_for_peers) at->since = at->sent_since = MonoTime::max();
+}
+
+// After a refusal, the time starts over: the link itself reports that no program listens.
+bool SilenceWatch::is_due(Watched& watched, const LinkCounters* link, MonoTime now) {
+    if (has_sent(link)) {
+        const auto refused = link->refused.value();
+        const bool is_refused = std::exchange(watched.refused, refused) != refused;
+        watched.sent_since = is_refused ? now : std::min(watched.sent_since, now);
+        return watched.sent_since <= now - patience;
+    }
+    return !watched.is_reported && watched.since <= now - patience;
+}
+
+std::vector<SilenceWatch::Silent> SilenceWatch::look(const CountersOf& counters_of, MonoTime now) {
+    std::vector<Silent> silent;
+    std::erase_if(watched_, [&](Watched& w) {
+        const LinkCounters* const link = w.link == LinkId{} ? nullptr : counters_of(w.link);
+        if (link != nullptr && link->frames_in.value() != 0) return true;
+        if (!is_due(w, link, now)) return false;
+        silent.push_back({w.endpoint, w.link});
+        w.is_reported = true;
+        return has_sent(link) || !w.calls;
+    });
+    return silent;
+}
+
+std::string silence_text(const EndpointInfo& info, const LinkCounters* link) {
+    const auto found = evidence(info, link);
+    return fmt::format("{}: nothing heard for 5 s; {}", info.label(), found.empty() ? advice_for(info, link) : found);
+}
+
+std::vector<std::string> look_for_silence(SilenceWatch& watch, const Links& links, MonoTime now) {
+    const auto silent = watch.look([&](LinkId link) { return links.counters(link); }, now);
+    std::vector<std::string> texts;
+    if (silent.empty()) return texts;
+    const auto endpoints = links.endpoints();
+    for (const auto& [endpoint, link] : silent) {
+        const auto info = std::ranges::find(endpoints, endpoint, &EndpointInfo::id);
+        if (info != endpoints.end()) texts.push_back(silence_text(*info, links.counters(link)));
+    }
+    return texts;
+}
+
+}  // namespace mavloom::link
