@@ -11,7 +11,8 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 TOPS = ("include", "src", "apps", "python/src")
-OF_ALL = re.compile(r"(^|/)(CMakeLists\.txt|CMakePresets\.json|\.clang-tidy)$|^cmake/|^dialects/|^tools/dialectgen/")
+OF_ALL = re.compile(r"^((?!tests/|bench/)(.*/)?CMakeLists\.txt|CMakePresets\.json|\.clang-tidy)$|"
+                    r"^cmake/|^dialects/|^tools/dialectgen/")
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
 
 
