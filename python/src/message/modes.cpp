@@ -4,9 +4,9 @@
 
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/string_view.h>
 
 #include "bindings.hpp"
+#include "strings.hpp"
 
 namespace mavloom::python {
 
