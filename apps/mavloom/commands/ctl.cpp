@@ -321,7 +321,7 @@ Run declare_ctl(Arguments command, const Common&) {
     command.add_option("action", "ACTION", options->action,
                        "links, stats, add URL, remove NAME; of a router: routes; of a simulator: streams, state, arm, "
                        "disarm, takeoff ALTITUDE, mode NAME, param NAME [VALUE]");
-    command.add_option("argument", "ARGUMENT", options->arguments, "what the action takes").expected(0, 2);
+    command.add_option("argument", "ARGUMENT", options->arguments, "what the action takes");
     command.add_option("--system", "N", options->system, "the vehicle with this system id (default: all)");
     command.add_flag("--force", options->force, "arm or disarm even if the vehicle's own checks fail");
     command.footer(
