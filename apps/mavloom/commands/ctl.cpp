@@ -175,17 +175,15 @@ std::string nonzero(const Json& object, std::initializer_list<std::string_view> 
     return text;
 }
 
-void print_sim(fmt::appender out, const Json& o) {
-    fmt::format_to(out, "up {:.0f} s; {}\n", o.value("uptime_s", 0.0), nonzero(o, {}));
+void print_program(fmt::appender out, const Json& o) {
+    const auto counts = nonzero(o, {});
+    fmt::format_to(out, "up {:.0f} s{}{}\n", o.value("uptime_s", 0.0), counts.empty() ? "" : "; ", counts);
 }
 void print_vehicle(fmt::appender out, const Json& o) {
     fmt::format_to(out, "vehicle {} ({}, {}): {}, {}, {:.1f} m above home, battery {:.0f} %\n", o.value("system", 0),
                    o.value("type", ""), o.value("autopilot", ""), o.value("mode", ""),
                    o.value("armed", false) ? "armed" : "disarmed", o.value("relative_alt_m", 0.0),
                    o.value("battery_percent", 0.0));
-}
-void print_router(fmt::appender out, const Json& o) {
-    fmt::format_to(out, "up {:.0f} s; {}\n", o.value("uptime_s", 0.0), nonzero(o, {}));
 }
 void print_endpoint(fmt::appender out, const Json& o) {
     const auto odd = nonzero(o, {"rcvbuf"});
@@ -242,9 +240,9 @@ void print_unknown_target(fmt::appender out, const Json& o) {
 
 std::string table_of(const std::vector<std::string>& lines) {
     using Print = void (*)(fmt::appender, const Json&);
-    static const std::map<std::string_view, Print> prints{{"router", print_router},
+    static const std::map<std::string_view, Print> prints{{"router", print_program},
                                                           {"endpoint", print_endpoint},
-                                                          {"sim", print_sim},
+                                                          {"sim", print_program},
                                                           {"vehicle", print_vehicle},
                                                           {"gone", print_gone},
                                                           {"link", print_link},
