@@ -5,15 +5,19 @@
 # to `<name of the file>::msg`. Works in this tree and behind find_package(mavloom). An included file that does not
 # exist is taken from Mavloom's public definitions, if it is one of these. A change of the file, or of one that it
 # includes, builds again what depends on it.
-# The public definitions: in this tree, or where they are installed (mavloomConfig.cmake).
+
+# The folder of the public definitions: in this tree, or where they are installed (mavloomConfig.cmake). A property,
+# because functions also run in scopes that do not see the variables of this file.
 if(NOT DEFINED mavloom_DIALECTS_DIR)
   file(REAL_PATH "${CMAKE_CURRENT_LIST_DIR}/../dialects" mavloom_DIALECTS_DIR)
 endif()
+set_property(GLOBAL PROPERTY MAVLOOM_DIALECTS_DIR "${mavloom_DIALECTS_DIR}")
 
 # The files that `xml` includes, itself first, and the names of messages and enums: the inputs and outputs of the
 # generator must be known before it runs. Comments are cut out first. The generator reports malformed files. A public
 # file looks for its own includes beside the file that it replaces, as in the generator.
 function(_mavloom_scan_dialect xml out_files out_messages out_enums)
+  get_property(public_folder GLOBAL PROPERTY MAVLOOM_DIALECTS_DIR)
   set(queue "${xml}")
   set(files "")
   set(messages "")
@@ -23,7 +27,7 @@ function(_mavloom_scan_dialect xml out_files out_messages out_enums)
     get_filename_component(folder "${file}" DIRECTORY)
     if(NOT EXISTS "${file}")
       get_filename_component(name "${file}" NAME)
-      set(file "${mavloom_DIALECTS_DIR}/${name}")
+      set(file "${public_folder}/${name}")
     endif()
     file(REAL_PATH "${file}" file)
     if(file IN_LIST files OR NOT EXISTS "${file}")
@@ -55,6 +59,7 @@ endfunction()
 # Rules that run the generator into `out`. Sets `tables`, the tables' sources, and `headers_stamp`, the stamp of the
 # headers; a library of either must depend on them.
 function(_mavloom_generate_dialect xml namespace out options)
+  get_property(public_folder GLOBAL PROPERTY MAVLOOM_DIALECTS_DIR)
   _mavloom_scan_dialect("${xml}" files messages enums)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})
   string(REPLACE "::" "/" folder "${namespace}")
@@ -70,7 +75,7 @@ function(_mavloom_generate_dialect xml namespace out options)
     list(APPEND tables "${out}/tables/files.cpp")
   endif()
   set(generate "$<TARGET_FILE:mavloom::dialectgen>" "${xml}" --out "${out}" --namespace "${namespace}"
-               --public "${mavloom_DIALECTS_DIR}" ${options})
+               --public "${public_folder}" ${options})
   get_filename_component(name "${xml}" NAME)
   add_custom_command(OUTPUT ${tables} BYPRODUCTS "${out}/tables/tables.hpp" COMMAND ${generate} --part tables
                      DEPENDS ${files} mavloom::dialectgen COMMENT "Tables of ${name}" VERBATIM)

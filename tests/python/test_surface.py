@@ -100,8 +100,8 @@ def test_objects_are_shown(link, vehicle, flight, tmp_path):
     assert repr(log) == f"<Recording {flight}, closed>"
     with mavloom.write(tmp_path / "x.tlog") as writer:
         writer.write(beat)
-        assert repr(writer) == f"<RecordingWriter {tmp_path / 'x.tlog'}: 1 records>"
-    assert repr(link.vehicle(1)) == f"<Vehicle 1/1 on {link.name}: UNKNOWN, disarmed>"
+        assert repr(writer) == f"<RecordingWriter {tmp_path / 'x.tlog'}: 1 record>"
+    assert repr(link.vehicle(1)) == f"<Vehicle 1/1 on {link.name}: Mode(0x00000000), disarmed>"
     assert repr(link.vehicle(1).mission) == "<Mission of system 1>"
 
 

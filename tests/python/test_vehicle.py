@@ -612,7 +612,7 @@ def test_the_services_with_asyncio(px4, peer, quick):
         ticker = asyncio.create_task(tick())
         await vehicle.set_mode("LOITER")
         await vehicle.arm()
-        assert vehicle.armed and vehicle.mode == "LOITER"
+        assert vehicle.armed and vehicle.mode == ("Hold" if px4 else "LOITER")
         await vehicle.takeoff(5)
         await vehicle.land()
         await vehicle.disarm()

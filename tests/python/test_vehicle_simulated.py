@@ -71,7 +71,7 @@ def test_fetches_and_writes_of_several_threads(flying_link):
 def test_a_mission_comes_back_as_it_was_uploaded(flying_link):
     """The item 0 of an ArduPilot is home. Neither side shows it. ArduPilot answers with the frames of MISSION_ITEM."""
     vehicle = flying_link.vehicle(1)
-    relative = 6 if "MISSION" in vehicle.modes else 3  # 6: PX4
+    relative = 6 if "Mission" in vehicle.modes else 3  # 6: PX4
     items = [mavloom.MissionItem.at(47.398, 8.546, 20), mavloom.MissionItem.at(47.399, 8.546, 25),
              mavloom.MissionItem(177, frame=2, param1=0, param2=2)]
     for count in (3, 1, 0):

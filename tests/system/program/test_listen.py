@@ -195,10 +195,11 @@ def test_junk_on_a_stream_is_counted_although_its_run_has_not_ended(spawn):
     """Issue 30: only whole blocks of 4,096 bytes were counted."""
     port = harness.free_port(socket.SOCK_STREAM)
     with socket.create_server(("127.0.0.1", port)) as server:
-        process = spawn("listen", f"tcpout://127.0.0.1:{port}", "--stats-only", "--json")
+        process = spawn("listen", f"tcpout://127.0.0.1:{port}", "--stats", "--json")
         connection, _ = server.accept()
         with connection:
             connection.sendall(next(frames.heartbeats(1)) + b"login: ")
+            process.wait_output('"HEARTBEAT"')  # the junk arrived with it
             totals = json_lines(process.stop().stdout)[-1]["stats"]["totals"]
 
     assert (totals["frames"], totals["junk_bytes"]) == (1, 7)
