@@ -150,6 +150,7 @@ public:
     void on_plan_changed(PlanType type);
     // While a calibration runs, the vehicle is not ready.
     void set_calibrating(bool calibrating);
+    [[nodiscard]] bool is_calibrating() const noexcept { return (unready() & unready_calibrating) != 0; }
 
     // --- State. References stay valid for the life of the object.
     [[nodiscard]] FlightTime since_boot() const noexcept;

@@ -59,8 +59,10 @@ struct Limits {
     std::size_t file_bytes = 256 * 1024;  // all files that clients wrote to one vehicle, together
     std::size_t clients = 64;             // clients of one vehicle with a transfer in progress
     std::size_t file_sessions = 8;        // of one client
-    std::size_t flight_logs = 32;         // logs of flights; the oldest one goes first
+    std::size_t flight_logs = 32;         // logs of flights; the oldest one goes first; 0 keeps none
     std::size_t log_records = 3000;       // of all logs of flights together, 88 bytes each
+    // Changed parameters that all logs of flights have together, 8 bytes each. The newest log has all of its own.
+    std::size_t log_parameters = 3000;
 };
 
 struct VehicleOptions {

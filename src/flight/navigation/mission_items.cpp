@@ -222,14 +222,14 @@ void MissionRunner::act_at_once() {
     }
 }
 
-// Negative repeats: for ever.
+// Negative repeats: for ever. ArduPilot does not announce those.
 void MissionRunner::jump() {
     const double repeats = param(2);
     if (!(param(1) >= 0 && param(1) < size())) return;
     std::uint16_t& done = jumps_[index_];
     if (repeats >= 0 && done >= repeats) return;
     if (done < std::numeric_limits<std::uint16_t>::max()) ++done;
-    report_jump(context_, index_, done, repeats);
+    if (repeats >= 0) report_jump(context_, index_, done, repeats);
     next_ = std::max(static_cast<std::uint16_t>(param(1)), first());
 }
 

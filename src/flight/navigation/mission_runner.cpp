@@ -12,6 +12,8 @@ namespace {
 
 // Items that may act in one update. More of them wait for the next one, so that jumps cannot loop for ever.
 constexpr int most_items_at_once = 32;
+// ArduPilot ends a mission after so many items in a row that are no way to go.
+constexpr int most_actions_in_a_row = 255;
 
 }  // namespace
 
@@ -103,14 +105,20 @@ void MissionRunner::finish_item() {
     has_reached_any_ = true;
     report_end(context_, index_, item());
     context_.observer.on_item_reached(index_);
-    if (next_ >= size()) return complete();
+    actions_in_a_row_ = item().command <= msg::MAV_CMD_NAV_LAST ? 0 : actions_in_a_row_ + 1;
+    if (next_ >= size() || is_endless()) return complete();
     index_ = next_;
     enter(Stage::fresh);
     context_.observer.on_mission_progress();
 }
 
+bool MissionRunner::is_endless() const noexcept {
+    return !context_.firmware.is_px4() && actions_in_a_row_ >= most_actions_in_a_row;
+}
+
 void MissionRunner::complete() {
     is_complete_ = true;
+    actions_in_a_row_ = 0;
     const Texts& texts = context_.texts();
     const bool has_landed = context_.is_on_ground();
     if (!wants_return_)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Flies the uploaded mission, item by item. Private to flight; single owner. Allocates only when the plan changes.
+// Flies the uploaded mission, item by item. Private to flight; single owner. Allocates when the plan changes, and for
+// texts.
 //
 // Each item begins, continues until it is done, and is then reported as reached. Items without a place act at once.
 // Sources: MAVLink common message set, MAV_CMD; PX4 user guide, "Mission Mode".
@@ -51,6 +52,7 @@ private:
     void enter(Stage stage) noexcept;
     void finish_item();
     void complete();
+    [[nodiscard]] bool is_endless() const noexcept;
 
     // Begins or continues the current item. Returns true once the item is done.
     [[nodiscard]] bool fly();
@@ -94,6 +96,7 @@ private:
     Stage stage_ = Stage::fresh;
     FlightTime since_{};
     std::vector<std::uint16_t> jumps_;  // done so far, by item
+    int actions_in_a_row_ = 0;          // items since the last one that was a way to go
     bool runs_ = false, is_complete_ = false, has_reached_any_ = false, is_announced_ = false, wants_return_ = false;
 };
 

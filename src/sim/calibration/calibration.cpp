@@ -61,7 +61,7 @@ Outcome CalibrationService::begin(const Command& command, Moment now) {
     if (cancels) return cancel(now);
     const auto sensor = sensor_of(command);
     if (!sensor) return Result::denied;
-    if (parts_.flight.armed() || is_running()) return Result::temporarily_rejected;
+    if (parts_.flight.armed() || parts_.flight.is_calibrating() || is_running()) return Result::temporarily_rejected;
     const bool is_px4 = parts_.firmware.is_px4();
     if (*sensor == Sensor::radio || (!is_px4 && *sensor != Sensor::accel))
         return *sensor == Sensor::mag ? Result::unsupported : Result::accepted;

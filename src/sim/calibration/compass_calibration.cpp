@@ -17,7 +17,7 @@ namespace {
 
 using namespace msg;
 
-constexpr Nanoseconds report_interval = std::chrono::milliseconds{250};
+constexpr Nanoseconds compass_report_interval = std::chrono::milliseconds{250};
 // ArduPilot counts its first step as a third of the whole.
 constexpr Nanoseconds step_one = std::chrono::seconds{4}, step_two = std::chrono::seconds{8};
 constexpr double percent_one = 33, percent_two = 99;
@@ -68,6 +68,8 @@ Outcome CompassCalibration::start(const Command& command, Moment now) {
         parts_.on_text(Severity::notice, "Disarm to allow compass calibration");
         return Result::failed;
     }
+    const bool calibrates_another = parts_.flight.is_calibrating() && !was_running_;
+    if (calibrates_another) return Result::temporarily_rejected;
     const auto mask = command.whole(1, largest_mask);
     const float delay = command.param(4);
     if (!mask || std::isnan(delay)) return Result::failed;
@@ -95,7 +97,7 @@ bool CompassCalibration::begin(std::uint32_t mask, FlightTime begins, FlightTime
     parts_.put_parameter("COMPASS_LEARN", 0);
     parts_.flight.set_calibrating(true);
     was_running_ = true;
-    next_ = now + report_interval;
+    next_ = now + compass_report_interval;
     return true;
 }
 
@@ -140,7 +142,7 @@ Outcome CompassCalibration::calibrate_by_heading(const Command& command) {
 
 void CompassCalibration::pump(Moment now) {
     if (now.flight < next_) return;
-    next_ = now.flight + report_interval;
+    next_ = now.flight + compass_report_interval;
     for (std::size_t i = 0; i < compasses_.size(); ++i) {
         if (!compasses_[i].is_started()) continue;
         if (!compasses_[i].is_done(now.flight)) {

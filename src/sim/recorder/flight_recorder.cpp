@@ -58,17 +58,19 @@ void fill_battery(const Battery& battery, Sample& sample) {
 }  // namespace
 
 FlightRecorder::FlightRecorder(const VehicleOptions& options, const Firmware& firmware, const Parameters& parameters,
-                               const Flight& flight) noexcept
+                               const Flight& flight, const Radio& radio) noexcept
     : options_(options),
       firmware_(firmware),
       parameters_(parameters),
       flight_(flight),
+      radio_(radio),
       format_(LogFormat::of(firmware.is_px4())),
-      source_{firmware, options.system, options.battery.cells} {}
+      source_{firmware, options.battery.cells} {}
 
 // A vehicle that moves at random is always armed: its flight has no end.
 void FlightRecorder::advance() {
-    if (options_.motion == Motion::random || options_.limits.log_records == 0) return;
+    const Limits& limits = options_.limits;
+    if (options_.motion == Motion::random || limits.flight_logs == 0 || limits.log_records == 0) return;
     if (!is_recording_) begin();
     const FlightTime now = flight_.since_boot();
     if (!flight_.armed()) return finish();
@@ -82,22 +84,33 @@ void FlightRecorder::advance() {
 }
 
 void FlightRecorder::begin() {
-    const Limits& limits = options_.limits;
-    while (!flights_.empty() && (flights_.size() >= limits.flight_logs || records_.size() > limits.log_records / 2))
-        drop_oldest();
-    records_.reserve(limits.log_records);
-    is_recording_ = true;
-    interval_ = sample_interval;
     const FlightTime now = flight_.since_boot();
+    LogHead facts = head(now);
+    make_room(facts.changed.size());
+    records_.reserve(options_.limits.log_records);
+    is_recording_ = true;
+    is_full_ = false;
+    interval_ = sample_interval;
     next_sample_ = now;
-    present_ = {.head = head(now), .begin = records_.size(), .end = records_.size()};
+    present_ = {.head = std::move(facts), .begin = records_.size(), .end = records_.size()};
     mode_ = index_of(flight_.mode());
     add(now, ModeChange{mode_});
 }
 
+void FlightRecorder::make_room(std::size_t changed) {
+    const Limits& limits = options_.limits;
+    for (const RecordedFlight& flight : flights_) changed += flight.head.changed.size();
+    while (!flights_.empty() && (flights_.size() >= limits.flight_logs || records_.size() > limits.log_records / 2 ||
+                                 changed > limits.log_parameters)) {
+        changed -= flights_.front().head.changed.size();
+        drop_oldest();
+    }
+}
+
 LogHead FlightRecorder::head(FlightTime now) const {
     const GeoPoint& origin = flight_.frame().origin();
-    LogHead head{.began_ms = milliseconds(now),
+    LogHead head{.system = radio_.system(),
+                 .began_ms = milliseconds(now),
                  .began = utc_at(now),
                  .origin = {origin.latitude, origin.longitude, origin.altitude},
                  .home_altitude = to_mm(flight_.home() ? flight_.home()->altitude : flight_.ground_altitude())};
@@ -107,12 +120,14 @@ LogHead FlightRecorder::head(FlightTime now) const {
     return head;
 }
 
-// Logs of PX4 are named by the second in which they begin, so no two may begin in the same one.
+// Logs of PX4 are named by the second in which they begin, so no two may begin in the same one. The newest log that the
+// vehicle brings along begins at the start.
 WallTime FlightRecorder::utc_at(FlightTime since_boot) const noexcept {
     if (options_.utc_at_start == WallTime{}) return {};
     const WallTime began = options_.utc_at_start + booted_ + since_boot;
-    if (flights_.empty()) return began;
-    return std::max(began, flights_.back().head.began + std::chrono::seconds{1});
+    if (flights_.empty() && options_.logs == 0) return began;
+    const WallTime previous = flights_.empty() ? options_.utc_at_start : flights_.back().head.began;
+    return std::max(began, previous + std::chrono::seconds{1});
 }
 
 void FlightRecorder::finish() {
@@ -151,16 +166,19 @@ void FlightRecorder::drop_oldest() {
         flight.end -= gone;
     }
     if (is_recording_) present_.begin -= gone;
+    is_full_ = false;
     ++dropped_;
+    if (header_.flight < dropped_) header_ = {};
 }
 
-// If nothing can be thinned out, the flight has too many texts: the record is lost.
+// If nothing can be thinned out, the flight has too many texts and changes of mode. Further records are lost.
 void FlightRecorder::add(FlightTime time, const LogContent& content) {
-    if (records_.size() >= options_.limits.log_records) thin_out();
-    if (records_.size() < options_.limits.log_records) records_.push_back({milliseconds(time), 0, content});
+    const auto has_room = [&] { return records_.size() < options_.limits.log_records; };
+    if (!has_room() && !is_full_) thin_out();
+    if (has_room()) records_.push_back({milliseconds(time), 0, content});
 }
 
-// Every other sample of the present flight goes.
+// Every other sample of the present flight goes. If there is none to go, the flight is full.
 void FlightRecorder::thin_out() {
     bool goes = false;
     const auto from = records_.begin() + static_cast<std::ptrdiff_t>(present_.begin);
@@ -168,6 +186,8 @@ void FlightRecorder::thin_out() {
         if (!std::holds_alternative<Sample>(record.content)) return false;
         return std::exchange(goes, !goes);
     });
+    is_full_ = end == records_.end();
+    if (is_full_) return;
     records_.erase(end, records_.end());
     interval_ *= 2;
 }
@@ -190,17 +210,25 @@ std::uint8_t FlightRecorder::index_of(const ModeInfo& mode) const noexcept {
 
 std::size_t FlightRecorder::read(std::uint16_t index, std::uint32_t offset, ByteSpan out) const {
     const RecordedFlight& flight = flights_[index];
-    if (offset >= flight.size) return 0;
+    if (offset >= flight.size || out.empty()) return 0;
     const std::size_t length = std::min<std::size_t>(out.size(), flight.size - offset);
     std::size_t done = 0;
     if (offset < flight.header_size) {
-        const auto header = format_.header(source_, flight.head);
         done = std::min<std::size_t>(length, flight.header_size - offset);
-        std::memcpy(out.data(), header.data() + offset, done);
+        read_header(index, offset, out.first(done));
     }
     while (done < length)
         done += read_record(flight, offset + static_cast<std::uint32_t>(done), out.first(length).subspan(done));
     return length;
+}
+
+// Clients read a header in many small parts: it stays in memory until its last byte has been read.
+void FlightRecorder::read_header(std::uint16_t index, std::uint32_t offset, ByteSpan out) const {
+    const std::uint32_t flight = dropped_ + index;
+    if (header_.bytes.empty() || header_.flight != flight)
+        header_ = {flight, format_.header(source_, flights_[index].head)};
+    std::memcpy(out.data(), header_.bytes.data() + offset, out.size());
+    if (offset + out.size() == header_.bytes.size()) header_ = {};
 }
 
 // A record without bytes has the offset of the next one.

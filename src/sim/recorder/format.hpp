@@ -10,7 +10,6 @@
 
 #include "flight/firmware/firmware.hpp"
 #include "mavloom/base/bytes.hpp"
-#include "mavloom/base/ids.hpp"
 #include "sim/recorder/record.hpp"
 
 namespace mavloom::sim {
@@ -18,7 +17,6 @@ namespace mavloom::sim {
 // The vehicle that writes the log.
 struct LogSource {
     const Firmware& firmware;
-    SystemId system;
     std::uint8_t battery_cells = 0;
 };
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "flight/firmware/parameters.hpp"
+#include "mavloom/base/ids.hpp"
 #include "mavloom/sim/flight.hpp"
 
 namespace mavloom::sim {
@@ -61,6 +62,7 @@ struct ChangedParameter {
 
 // The facts that all records of a log share.
 struct LogHead {
+    SystemId system{};
     std::uint32_t began_ms = 0;      // since boot
     WallTime began{};                // the epoch if UTC is unknown
     std::array<double, 3> origin{};  // of the local frame: degrees, degrees, m above mean sea level

@@ -207,7 +207,7 @@ private:
         out_.put(vehicle_type(source_.firmware));
         out_.put(std::uint8_t{sample_.has_failsafe});
         out_.put(source_.firmware.mav_type());
-        out_.put(source_.system.value);
+        out_.put(head_.system.value);
         out_.put(autopilot);
         begin(landed);
         out_.put(std::uint8_t{sample_.is_landed});

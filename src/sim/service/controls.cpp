@@ -212,6 +212,7 @@ void Controls::on_local_target(ByteView payload, Moment now) {
     const auto m = SetPositionTargetLocalNed::decode(payload);
     const auto field = [&](unsigned bit, float value) { return (m.type_mask & bit) != 0 ? nan : double{value}; };
     OffboardSetpoint setpoint = motion_of(m);
+    if (needs_all_axes()) drop_incomplete(setpoint);
     setpoint.position = {field(POSITION_TARGET_TYPEMASK_X_IGNORE, m.x), field(POSITION_TARGET_TYPEMASK_Y_IGNORE, m.y),
                          field(POSITION_TARGET_TYPEMASK_Z_IGNORE, m.z)};
     const bool is_px4 = parts_.firmware.is_px4();
@@ -235,6 +236,7 @@ void Controls::on_global_target(ByteView payload, Moment now) {
     const auto m = SetPositionTargetGlobalInt::decode(payload);
     constexpr unsigned no_place = POSITION_TARGET_TYPEMASK_X_IGNORE | POSITION_TARGET_TYPEMASK_Y_IGNORE;
     OffboardSetpoint setpoint = motion_of(m);
+    if (needs_all_axes()) drop_incomplete(setpoint);
     const bool has_place = (m.type_mask & no_place) == 0;
     const bool has_height = (m.type_mask & POSITION_TARGET_TYPEMASK_Z_IGNORE) == 0 && !std::isnan(m.alt);
     const Command place{.x = from_degrees_e7(m.lat_int),

@@ -85,7 +85,7 @@ FlightTime EventService::wakes_at() const noexcept {
 void EventService::pump(Moment now) {
     if (booted_ != parts_.booted) restart();
     if (now.flight >= next_sequence_) {
-        if (reset_ != 0) announce_log();
+        if (!std::exchange(has_announced_log_, true)) announce_log();
         parts_.radio.broadcast(
             CurrentEventSequence{.sequence = sequence_, .flags = static_cast<std::uint8_t>(std::exchange(reset_, 0))});
         next_sequence_ = now.flight + sequence_interval;
@@ -167,11 +167,11 @@ void EventService::send_problem(const HealthProblem& problem) {
     send(problem.event, problem.modes, problem.component);
 }
 
-// The newest log that the vehicle brings along began when the vehicle was created.
+// The newest log that the vehicle brings along begins when the vehicle is created.
 void EventService::announce_log() {
     const RecordedLogs& logs = parts_.log_service->logs();
-    if (logs.count() == 0) return;
-    const auto newest = static_cast<std::uint16_t>(logs.count() - 1);
+    if (logs.brought_along() == 0) return;
+    const auto newest = static_cast<std::uint16_t>(logs.brought_along() - 1);
     if (const WallTime began = logs.began_at(newest); began != WallTime{}) {
         const Calendar at = calendar_of(began);
         const auto byte = [](unsigned part) { return static_cast<std::uint8_t>(part); };

@@ -56,6 +56,7 @@ private:
     FlightTime booted_;
     FlightTime next_sequence_, next_check_, may_report_;
     std::optional<HealthReport> reported_;
+    bool has_announced_log_ = false;
 };
 
 }  // namespace mavloom::sim

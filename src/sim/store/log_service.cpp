@@ -29,7 +29,7 @@ constexpr unsigned messages_at_once = 100;
 
 LogService::LogService(Parts& parts)
     : parts_(parts),
-      logs_(parts.options, parts.firmware, parts.parameters, parts.flight),
+      logs_(parts.options, parts.firmware, parts.parameters, parts.flight, parts.radio),
       streams_(parts.firmware.is_px4(), parts.options.system, parts.options.limits.clients, parts.radio) {
     logs_.recorder().reboot(parts.booted);
 }

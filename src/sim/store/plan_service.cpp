@@ -381,7 +381,7 @@ bool PlanService::keep_alive(Transfer& transfer, Moment now) {
     const Patience& patience = patience_of(parts_.firmware);
     if (now.real - transfer.heard >= patience.before_end) {
         if (transfer.stage != Stage::upload) return false;
-        parts_.announcer.say(Severity::critical, patience.end, now.flight);
+        parts_.on_text(Severity::critical, patience.end);
         acknowledge(transfer.client, number_of(transfer.type), MAV_MISSION_OPERATION_CANCELLED);
         return false;
     }

@@ -160,13 +160,13 @@ void LogImage::write_record(std::uint32_t index, ByteSpan record) const noexcept
 }
 
 RecordedLogs::RecordedLogs(const VehicleOptions& options, const Firmware& firmware, const Parameters& parameters,
-                           const Flight& flight) noexcept
+                           const Flight& flight, const Radio& radio) noexcept
     : is_px4_(options.autopilot == Autopilot::px4),
       system_(options.system),
       booted_(options.utc_at_start),
       old_(static_cast<std::uint16_t>(std::min(options.logs, most_logs))),
       brought_(old_),
-      recorder_(options, firmware, parameters, flight) {}
+      recorder_(options, firmware, parameters, flight, radio) {}
 
 void RecordedLogs::erase() {
     old_ = 0;

@@ -48,10 +48,12 @@ class RecordedLogs {
 public:
     // The arguments must outlive the object.
     RecordedLogs(const VehicleOptions& options, const Firmware& firmware, const Parameters& parameters,
-                 const Flight& flight) noexcept;
+                 const Flight& flight, const Radio& radio) noexcept;
 
     [[nodiscard]] FlightRecorder& recorder() noexcept { return recorder_; }
     [[nodiscard]] std::uint16_t count() const noexcept { return static_cast<std::uint16_t>(old_ + recorder_.count()); }
+    // Those that the vehicle brings along and that are still there: they come first.
+    [[nodiscard]] std::uint16_t brought_along() const noexcept { return old_; }
     void erase();
 
     // `index` counts from 0, the oldest. When a log goes, the indices of the others change, but not their serials.

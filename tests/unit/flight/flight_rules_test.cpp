@@ -442,6 +442,17 @@ TEST(ArduPilotMission, CopterReportsItsItems) {
                             "Mission: 3 ChangeSpeed", "Mission: 5 LoitTime", "Reached command #5", "AUTO"));
 }
 
+// ArduPilot looks at 255 items for the next way to go, and then ends the mission. It does not announce endless jumps.
+TEST(ArduPilotMission, AnEndlessLoopOfActionsEndsTheMission) {
+    const auto plan = [](FlightRig& rig) {
+        return std::vector{rig.item(MAV_CMD_NAV_TAKEOFF, 0, 0, 6), rig.action(MAV_CMD_DO_CHANGE_SPEED, {1, 4, -1, 0}),
+                           rig.action(MAV_CMD_DO_JUMP, {2, -1, 0, 0})};
+    };
+    const auto texts = texts_of_a_mission(Kind::quad, plan);
+    EXPECT_LT(texts.size(), 140);
+    EXPECT_THAT(texts, Not(Contains(HasSubstr("Jump"))));
+}
+
 TEST(ArduPilotMission, PlaneReportsDistancesAndThenReturns) {
     const auto plan = [](FlightRig& rig) {
         return std::vector{rig.item(MAV_CMD_NAV_TAKEOFF, 0, 0, 40), rig.item(MAV_CMD_NAV_WAYPOINT, 600, 0, 50)};

@@ -134,6 +134,16 @@ TEST_F(CompassCalibration, RefusesWhileArmed) {
     EXPECT_EQ(bench.text(), "Disarm to allow compass calibration");
 }
 
+TEST_F(CompassCalibration, RefusesWhileAnotherSensorIsCalibratedAndTheReverse) {
+    constexpr int calibrate = 241;
+    const auto begin_accelerometer = [&] { return bench.command(calibrate, {0, 0, 0, 0, 1}); };
+    ASSERT_EQ(begin(), accepted);
+    EXPECT_EQ(begin_accelerometer(), temporarily_rejected);
+    ASSERT_EQ(bench.command(cancel, {1}), accepted);
+    ASSERT_EQ(begin_accelerometer(), accepted);
+    EXPECT_EQ(begin(), temporarily_rejected);
+}
+
 TEST_F(CompassCalibration, RebootsAtItsEndIfTheClientWantsIt) {
     ASSERT_EQ(bench.command(start, {1, 0, 1, 0, 1}), accepted);
     bench.rig.run(whole + 5);

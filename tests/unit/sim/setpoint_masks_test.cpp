@@ -10,7 +10,7 @@
 #include "mavloom/msg/set_position_target_local_ned.hpp"
 #include "unit/sim/bench.hpp"
 
-namespace mavloom::sim {
+namespace mavloom::sim::setpoint_mask_tests {
 namespace {
 
 using namespace test;
@@ -76,6 +76,7 @@ constexpr MaskCase local_cases[]{
     {"horizontal velocity", 0xde7, local_ned, true, false},
     {"horizontal velocity of the body", 0xde7, body_ned, false, false},
     {"position of the body with a velocity", 0xdc0, body_ned, true, true},
+    {"velocity, and a vertical force", 0xec7, local_ned, false, true},
 };
 
 constexpr MaskCase global_cases[]{
@@ -167,4 +168,4 @@ TEST(SetpointMasks, AVelocityWithTheForceBitMovesTheVehicle) {
 }
 
 }  // namespace
-}  // namespace mavloom::sim
+}  // namespace mavloom::sim::setpoint_mask_tests

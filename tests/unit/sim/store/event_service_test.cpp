@@ -99,6 +99,17 @@ TEST_F(EventService, AnnouncesTheLogThatBoots) {
     EXPECT_STREQ(rig.last<Statustext>()->text.data(), "[logger] ./log/2026-11-21/00_51_54.ulg\t");
 }
 
+TEST_F(EventService, AnnouncesNoLogAgainAfterAReboot) {
+    rig.run(4.0);
+    ASSERT_TRUE(rig.vehicle.arm(true));
+    rig.run(1.0);
+    ASSERT_TRUE(rig.vehicle.disarm(true));
+    rig.run(1.0);
+    rig.send(CommandLong{.target_system = 1, .target_component = 1, .command = 246, .param1 = 1});
+    rig.run(8.0);
+    EXPECT_EQ(of_id(event_id::log_opened).size(), 1u);
+}
+
 // A ready vehicle without mission and sticks: the report of the recording, byte by byte.
 TEST_F(EventService, ReportsTheArmingChecksAsPx4Does) {
     greet();

@@ -8,6 +8,7 @@
 
 #include "mavloom/msg/attitude.hpp"
 #include "mavloom/msg/battery_status.hpp"
+#include "mavloom/msg/command_long.hpp"
 #include "mavloom/msg/global_position_int.hpp"
 #include "mavloom/msg/local_position_ned.hpp"
 #include "mavloom/msg/log_data.hpp"
@@ -15,6 +16,7 @@
 #include "mavloom/msg/log_erase.hpp"
 #include "mavloom/msg/log_request_data.hpp"
 #include "mavloom/msg/log_request_list.hpp"
+#include "mavloom/msg/mission_count.hpp"
 #include "unit/sim/rig.hpp"
 
 namespace mavloom::sim::flight_log_tests {
@@ -34,14 +36,15 @@ VehicleOptions options_of(Autopilot autopilot = Autopilot::px4) {
 
 std::vector<LogEntry> list(Rig& rig) {
     rig.forget();
-    rig.send(LogRequestList{.target_system = 1, .target_component = 1, .end = 0xffff});
+    rig.send(LogRequestList{.target_system = rig.vehicle.system().value, .target_component = 1, .end = 0xffff});
     rig.run(0.1);
     return rig.all<LogEntry>();
 }
 
 Bytes read(Rig& rig, std::uint16_t id, std::uint32_t offset = 0, std::uint32_t count = 0xffffffff) {
     rig.forget();
-    rig.send(LogRequestData{.target_system = 1, .target_component = 1, .id_ = id, .ofs = offset, .count = count});
+    rig.send(LogRequestData{
+        .target_system = rig.vehicle.system().value, .target_component = 1, .id_ = id, .ofs = offset, .count = count});
     rig.run(5.0);
     Bytes content;
     for (const auto& piece : rig.all<LogData>())
@@ -187,6 +190,102 @@ TEST(FlightLog, ALongFlightHasFewerSamplesASecond) {
     for (std::size_t i = 1; i < samples.size(); ++i) EXPECT_LE(time(samples[i]) - time(samples[i - 1]), 3.3);
     stand_armed(rig, 1);
     EXPECT_EQ(list(rig).size(), 1u) << "the long one made room";
+}
+
+std::vector<double> seconds_of(const std::vector<Bytes>& samples) {
+    std::vector<double> seconds;
+    for (const Bytes& data : samples) seconds.push_back(static_cast<double>(load_le<std::uint64_t>(data.data())) / 1e6);
+    return seconds;
+}
+
+// When nothing can be thinned out any more, records are lost. When there is room again, samples are recorded as before.
+TEST(FlightLog, AFlightOfManyModeChangesStaysBounded) {
+    VehicleOptions options = options_of();
+    options.limits.log_records = 50;
+    Rig rig(options);
+    rig.run(4.0);
+    stand_armed(rig, 3);
+    ASSERT_TRUE(rig.vehicle.arm(true));
+    for (int i = 0; i < 200; ++i) {
+        ASSERT_TRUE(rig.vehicle.set_mode(i % 2 == 0 ? "Land" : "Hold"));
+        rig.run(0.02);
+    }
+    rig.send(LogErase{.target_system = 1, .target_component = 1});
+    rig.run(5.0);
+    ASSERT_TRUE(rig.vehicle.disarm(true));
+    rig.run(1.0);
+
+    const auto entries = list(rig);
+    ASSERT_EQ(entries.size(), 1u);
+    const Bytes log = read(rig, 0);
+    EXPECT_EQ(log.size(), entries[0].size);
+    const auto times = seconds_of(topic_of(log, "vehicle_attitude"));
+    ASSERT_GE(times.size(), 2u);
+    for (std::size_t i = 1; i + 1 < times.size(); ++i) EXPECT_GE(times[i] - times[i - 1], 0.199);
+}
+
+TEST(FlightLog, ChangedParametersStayBounded) {
+    VehicleOptions options = options_of();
+    options.limits.log_parameters = 1;
+    Rig rig(options);
+    rig.run(4.0);
+    ASSERT_TRUE(rig.vehicle.set_parameter("MIS_TAKEOFF_ALT", 7.5));
+    for (int flight = 0; flight < 3; ++flight) {
+        stand_armed(rig, 1);
+        EXPECT_EQ(list(rig).size(), 1u);
+    }
+}
+
+TEST(FlightLog, WithoutRoomForAFlightThereIsNone) {
+    VehicleOptions options = options_of();
+    options.limits.flight_logs = 0;
+    Rig rig(options);
+    rig.run(4.0);
+    stand_armed(rig, 1);
+    EXPECT_EQ(list(rig).back().num_logs, 0);
+}
+
+TEST(FlightLog, HasTheSystemIdOfItsFlight) {
+    Rig rig(options_of());
+    rig.run(4.0);
+    ASSERT_TRUE(rig.vehicle.set_parameter("MAV_SYS_ID", 7));
+    stand_armed(rig, 1);
+    rig.send(CommandLong{.target_system = 1, .target_component = 1, .command = 246, .param1 = 1});  // reboot
+    rig.run(8.0);
+    ASSERT_EQ(rig.vehicle.system(), SystemId{7});
+    stand_armed(rig, 1);
+    const auto system_of = [&](std::uint16_t id) {
+        const Bytes status = topic_of(read(rig, id), "vehicle_status").at(0);
+        return int{status.at(status.size() - 2)};
+    };
+    EXPECT_EQ(system_of(0), 1);
+    EXPECT_EQ(system_of(1), 7);
+}
+
+// PX4's files have the second in their names.
+TEST(FlightLog, BeginsInNoSecondInWhichAnotherLogBegins) {
+    VehicleOptions options = options_of();
+    options.logs = 2;
+    Rig rig(options);
+    rig.run(0.3);
+    stand_armed(rig, 0.2);
+    const auto entries = list(rig);
+    ASSERT_EQ(entries.size(), 3u);
+    EXPECT_EQ(entries[1].time_utc, 1795222314u);
+    EXPECT_EQ(entries[2].time_utc, 1795222315u);
+}
+
+TEST(FlightLog, HasTheTextOfATransferThatTimesOut) {
+    Rig rig(options_of());
+    rig.run(4.0);
+    ASSERT_TRUE(rig.vehicle.set_parameter("COM_DISARM_PRFLT", -1));
+    ASSERT_TRUE(rig.vehicle.arm(true));
+    rig.send(MissionCount{.target_system = 1, .target_component = 1, .count = 2});
+    rig.run(20.0);
+    ASSERT_TRUE(rig.vehicle.disarm(true));
+    rig.run(1.0);
+    const Bytes log = read(rig, 0);
+    EXPECT_THAT(std::string(log.begin(), log.end()), testing::HasSubstr("imeout"));
 }
 
 }  // namespace
