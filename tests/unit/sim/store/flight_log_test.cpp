@@ -194,6 +194,7 @@ TEST(FlightLog, ALongFlightHasFewerSamplesASecond) {
 
 std::vector<double> seconds_of(const std::vector<Bytes>& samples) {
     std::vector<double> seconds;
+    seconds.reserve(samples.size());
     for (const Bytes& data : samples) seconds.push_back(static_cast<double>(load_le<std::uint64_t>(data.data())) / 1e6);
     return seconds;
 }
