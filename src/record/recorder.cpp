@@ -48,6 +48,7 @@ void Recorder::run() {
     }
     const auto closed = writer_.close();
     count();
+    report_removed(writer_.take_left());
     report(closed);
     if (const auto lost = writer_.lost_records(); lost != 0)
         notice_(fmt::format("{}: {} {} not written", label_, lost, lost == 1 ? "frame" : "frames"));
@@ -57,8 +58,12 @@ void Recorder::run() {
 SetupResult<void> Recorder::look_at_file() {
     auto removed = writer_.look_after(mono_now());
     if (!removed) return tl::unexpected(std::move(removed.error()));
-    if (!removed->empty()) notice_(fmt::format("{}: {}", label_, removal_notice(*removed, writer_.segment_path())));
+    report_removed(*removed);
     return {};
+}
+
+void Recorder::report_removed(const std::filesystem::path& removed) {
+    if (!removed.empty()) notice_(fmt::format("{}: {}", label_, removal_notice(removed, writer_.segment_path())));
 }
 
 SetupResult<void> Recorder::write(const FrameQueue::Entry& entry) {

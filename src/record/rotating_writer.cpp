@@ -78,12 +78,6 @@ fs::path RotatingWriter::free_name(WallTime time) const {
     return name;
 }
 
-SetupResult<TlogWriter> RotatingWriter::next_file(WallTime begin) const {
-    if (rotation_.rotates()) return TlogWriter::create_file(free_name(begin));
-    auto next = TlogWriter::create_file(path_);
-    return next || !is_taken(path_) ? std::move(next) : TlogWriter::create_file(free_name(begin));
-}
-
 SetupResult<void> RotatingWriter::end_segment() {
     if (!writer_) return {};
     auto closed = writer_->close();
@@ -102,7 +96,7 @@ SetupResult<void> RotatingWriter::continue_in(TlogWriter next) {
 }
 
 SetupResult<fs::path> RotatingWriter::look_after(MonoTime now) {
-    if (!left_.empty()) return std::exchange(left_, {});
+    if (!left_.empty()) return take_left();
     constexpr std::chrono::milliseconds look_interval{500};
     if (now < look_due_) return {};
     look_due_ = now + look_interval;
@@ -114,7 +108,7 @@ SetupResult<fs::path> RotatingWriter::look_after(MonoTime now) {
 }
 
 bool RotatingWriter::is_removed() const noexcept { return writer_ && writer_->is_file() && !writer_->is_named(); }
-bool RotatingWriter::is_deleted() const noexcept { return writer_ && writer_->is_file() && !writer_->is_linked(); }
+bool RotatingWriter::is_deleted() const noexcept { return is_removed() && !writer_->is_linked(); }
 
 SetupResult<void> RotatingWriter::leave_deleted() {
     if (!is_deleted()) return {};
@@ -129,7 +123,7 @@ SetupResult<void> RotatingWriter::begin_again() {
     if (was_deleted) writer_->let_go();  // the new file may need its space
     if (rotation_.rotates() && is_empty) return end_segment();
     const auto begin = is_empty ? begin_ : writer_->first_buffered_time();
-    auto next = next_file(begin);
+    auto next = TlogWriter::create_file(free_name(begin));
     if (!next) {
         if (was_deleted) no_file_ = next.error();
         return tl::unexpected(std::move(next.error()));
@@ -181,11 +175,16 @@ SetupResult<void> RotatingWriter::flush() {
 
 SetupResult<void> RotatingWriter::close() {
     closed_ = true;
-    if (is_removed() && writer_->buffered_bytes() != 0)
-        if (auto begun = begin_again(); !begun && no_file_) return begun;
+    if (is_removed() && writer_->buffered_bytes() != 0) {
+        auto removed = segment_path();
+        auto begun = begin_again();
+        if (begun) left_ = std::move(removed);
+        else if (no_file_) return begun;
+    }
     return writer_ ? writer_->close() : SetupResult<void>{};
 }
 
+fs::path RotatingWriter::take_left() noexcept { return std::exchange(left_, {}); }
 fs::path RotatingWriter::segment_path() const { return writer_ ? writer_->path() : fs::path{}; }
 fs::path RotatingWriter::renamed_to() const { return writer_ ? writer_->renamed_to() : fs::path{}; }
 

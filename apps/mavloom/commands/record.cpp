@@ -141,6 +141,8 @@ Exit record(const Common& common, RecordOptions& options) {
     (*receiver)->join();
     if (!recorded) give_up_the_rest(options, **receiver, *writer);
     auto closed = writer->close();
+    if (const auto removed = writer->take_left(); !removed.empty())
+        print_notice(common, record::removal_notice(removed, writer->segment_path()));
     log_recorded(common, *writer);
     log_losses(common, (*receiver)->totals());
     const auto status = options.json ? print_at_end(summary(*writer, (*receiver)->totals()), Exit::done) : Exit::done;

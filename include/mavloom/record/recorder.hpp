@@ -74,6 +74,7 @@ private:
     void count() noexcept;
     void report(const SetupResult<void>& result);
     [[nodiscard]] SetupResult<void> look_at_file();
+    void report_removed(const std::filesystem::path& removed);  // empty: none
 
     std::string label_;
     std::filesystem::path renamed_to_;

@@ -51,12 +51,15 @@ public:
     // Call it for each batch of frames and at least once a second. Twice a second, it writes the buffered records to
     // the file. If another program removed, renamed or replaced that file, it begins a new file for them instead. With
     // rotation and an empty buffer, the next frame begins the new file. Without rotation, the new file has the old
-    // name, unless a file that is no recording has taken it; then _2, _3, ... is appended to the stem. Returns the path
-    // of the old file; empty if it is still there. If no new file can be created, a later call tries again. Until then,
-    // records go to the old file if it was renamed, and to no file if it was deleted.
+    // name, unless another file has taken it; then _2, _3, ... is appended to the stem. Returns the path of the old
+    // file; empty if it is still there. If no new file can be created, a later call tries again. Until then, records
+    // go to the old file if it was renamed, and to no file if it was deleted.
     [[nodiscard]] SetupResult<std::filesystem::path> look_after(MonoTime now);
     // Writes the buffered records and closes the file. If the file was removed, writes them to a new one.
     [[nodiscard]] SetupResult<void> close();
+    // The path of a removed file that look_after() has not returned yet, because `make_room`, `write` or `close` found
+    // that it was gone; empty if there is none. Call it after `close`.
+    [[nodiscard]] std::filesystem::path take_left() noexcept;
 
     // The path given to `create`.
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
@@ -81,7 +84,6 @@ private:
     // Begins a new file if the open one was deleted.
     [[nodiscard]] SetupResult<void> leave_deleted();
     [[nodiscard]] SetupResult<void> begin_again();
-    [[nodiscard]] SetupResult<TlogWriter> next_file(WallTime begin) const;
     [[nodiscard]] SetupResult<void> end_segment();
     [[nodiscard]] SetupResult<void> continue_in(TlogWriter next);
     [[nodiscard]] SetupResult<void> begin_segment(TlogWriter next, WallTime time);
@@ -90,7 +92,7 @@ private:
     std::filesystem::path path_;
     Rotation rotation_;
     std::optional<TlogWriter> writer_;
-    std::filesystem::path left_;         // a deleted file that look_after() has not reported yet
+    std::filesystem::path left_;         // a removed file that look_after() has not reported yet
     std::optional<SetupError> no_file_;  // why there is no new file yet in place of the deleted one
     MonoTime look_due_{};
     WallTime begin_{};  // the time of the open segment's first frame

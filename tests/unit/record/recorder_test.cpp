@@ -95,6 +95,17 @@ TEST_P(RecorderWithoutFolder, FramesWaitInTheQueue) {
 INSTANTIATE_TEST_SUITE_P(Rotation, RecorderWithoutFolder,
                          testing::Values(Rotation{}, Rotation{.every = 1h}, Rotation{.bytes = 100'000}));
 
+TEST(Recorder, AFileThatWasDeletedIsReportedAtTheEnd) {
+    const TempDir dir;
+    Recording tape(dir / "x.tlog");
+    std::filesystem::remove(dir / "x.tlog");
+    tape.record(1);
+    tape.sut->stop();
+
+    EXPECT_TRUE(tape.notices.find("was removed or replaced") != std::string::npos) << tape.notices;
+    EXPECT_EQ(content_of(dir / "x.tlog").size(), bytes_of_record);
+}
+
 TEST(Recorder, FramesThatNeverReachAFileAreCounted) {
     const TempDir dir;
     std::filesystem::create_directory(dir / "sub");

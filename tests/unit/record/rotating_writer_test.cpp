@@ -180,6 +180,7 @@ TEST(RotatingWriter, AFolderThatGoesAwayIsAnErrorAndKeepsTheOpenSegment) {
 struct Lost {
     const char* what;
     void (*lose)(const std::filesystem::path& file);
+    const char* continues_in = "x.tlog";
 };
 
 class LosesItsFile : public testing::TestWithParam<Lost> {};
@@ -191,7 +192,15 @@ INSTANTIATE_TEST_SUITE_P(
                          [](const auto& file) {
                              std::filesystem::remove(file);
                              test::write_file(file, {});
-                         }},
+                         },
+                         "x_2.tlog"},
+                    Lost{"ReplacedByAnotherRecording",
+                         [](const auto& file) {
+                             std::filesystem::remove(file);
+                             auto other = created(file, {});
+                             record(other, {0s});
+                         },
+                         "x_2.tlog"},
                     Lost{"Renamed", [](const auto& file) { std::filesystem::rename(file, file.string() + ".away"); }}),
     [](const auto& given) { return given.param.what; });
 
@@ -204,7 +213,8 @@ TEST_P(LosesItsFile, WhatIsBufferedGoesToTheNewFile) {
     EXPECT_EQ(writer.look_after(MonoTime{} + 1s).value(), dir / "x.tlog");
     record(writer, {2s});
 
-    EXPECT_EQ(content_of(dir / "x.tlog").size(), 3 * heartbeat_record_bytes);
+    EXPECT_EQ(content_of(dir / GetParam().continues_in).size(), 3 * heartbeat_record_bytes);
+    EXPECT_FALSE(std::filesystem::exists(dir / "x.tlog.1")) << "another program's file was renamed";
     EXPECT_EQ(writer.taken_records(), 3u);
     EXPECT_EQ(writer.written_records(), 3u);
     EXPECT_EQ(writer.lost_records(), 0u);
@@ -233,8 +243,10 @@ TEST_P(LosesItsFile, WhatIsBufferedAtTheEndIsWritten) {
     GetParam().lose(dir / "x.tlog");
 
     ASSERT_TRUE(writer.close().has_value());
-    EXPECT_EQ(content_of(dir / "x.tlog").size(), heartbeat_record_bytes);
+    EXPECT_EQ(content_of(dir / GetParam().continues_in).size(), heartbeat_record_bytes);
     EXPECT_EQ(writer.written_records(), 1u);
+    EXPECT_EQ(writer.take_left(), dir / "x.tlog") << "nobody looks any more, so this reports it";
+    EXPECT_TRUE(writer.take_left().empty());
 }
 
 TEST(RotatingWriter, WithoutAFileNothingCountsAsWritten) {
