@@ -89,7 +89,8 @@ void Receiver::run() {
 void Receiver::look_after(MonoTime now) {
     sources_.links().refresh_kernel_drops();
     queue_->wake();
-    for (const auto& text : link::look_for_silence(silence_, sources_.links(), now)) notice_(text);
+    for (const auto& text : link::look_for_silence(silence_, sources_.links(), now))
+        if (notice_) notice_(text);
 }
 
 void Receiver::on_frame(const link::RxFrame& rx) {
@@ -126,7 +127,9 @@ void Receiver::on_link_up(LinkId link, link::EndpointId endpoint, std::string_vi
     }
 }
 
-void Receiver::on_link_down(LinkId link, link::EndpointId, std::string_view) { silence_.on_link_down(link); }
+void Receiver::on_link_down(LinkId link, link::EndpointId, std::string_view) {
+    silence_.on_link_down(link, sources_.links().counters(link));
+}
 
 void Receiver::on_notice(link::EndpointId, std::string_view text) {
     if (notice_) notice_(text);

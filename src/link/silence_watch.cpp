@@ -15,6 +15,7 @@ namespace {
 
 using endpoint::Scheme;
 
+bool has_heard(const LinkCounters* link) noexcept { return link != nullptr && link->frames_in.value() != 0; }
 bool has_sent(const LinkCounters* link) noexcept { return link != nullptr && link->frames_out.value() != 0; }
 
 std::string advice_for_serial(const endpoint::Endpoint& endpoint) {
@@ -102,17 +103,21 @@ void SilenceWatch::remove(EndpointId endpoint) {
 void SilenceWatch::on_link_up(LinkId link, EndpointId endpoint, MonoTime now) {
     const auto at = std::ranges::find(watched_, endpoint, &Watched::endpoint);
     if (at == watched_.end()) return;
-    at->link = link;
+    std::erase(at->links, link);
+    at->links.push_back(link);
     at->refused = 0;
     at->sent_since = MonoTime::max();
     if (!at->waits_for_peers) at->since = now;
 }
 
-void SilenceWatch::on_link_down(LinkId link) {
-    const auto at = std::ranges::find(watched_, link, &Watched::link);
+void SilenceWatch::on_link_down(LinkId link, const LinkCounters* counters) {
+    const auto at = std::ranges::find_if(watched_, [&](Watched& w) { return std::erase(w.links, link) != 0; });
     if (at == watched_.end()) return;
-    at->link = {};
-    if (!at->waits_for_peers) at->since = at->sent_since = MonoTime::max();
+    if (has_heard(counters)) {
+        watched_.erase(at);
+        return;
+    }
+    if (!at->waits_for_peers && at->links.empty()) at->since = at->sent_since = MonoTime::max();
 }
 
 // After a refusal, the time starts over: the link itself reports that no program listens.
@@ -129,10 +134,11 @@ bool SilenceWatch::is_due(Watched& watched, const LinkCounters* link, MonoTime n
 std::vector<SilenceWatch::Silent> SilenceWatch::look(const CountersOf& counters_of, MonoTime now) {
     std::vector<Silent> silent;
     std::erase_if(watched_, [&](Watched& w) {
-        const LinkCounters* const link = w.link == LinkId{} ? nullptr : counters_of(w.link);
-        if (link != nullptr && link->frames_in.value() != 0) return true;
+        if (std::ranges::any_of(w.links, [&](LinkId id) { return has_heard(counters_of(id)); })) return true;
+        const LinkId newest = w.links.empty() ? LinkId{} : w.links.back();
+        const LinkCounters* const link = w.links.empty() ? nullptr : counters_of(newest);
         if (!is_due(w, link, now)) return false;
-        silent.push_back({w.endpoint, w.link});
+        silent.push_back({w.endpoint, newest});
         w.is_reported = true;
         return has_sent(link) || !w.calls;
     });

@@ -118,7 +118,7 @@ void Router::on_link_down(LinkId link, link::EndpointId endpoint, std::string_vi
 void Router::forget_link(LinkId link) {
     if (ring_) ring_->on_link_down(link);
     forwarder_->remove_link(link);
-    silence_->on_link_down(link);
+    silence_->on_link_down(link, links_->counters(link));
 }
 
 void Router::on_notice(link::EndpointId, std::string_view text) { notice_(config::LogLevel::info, text); }

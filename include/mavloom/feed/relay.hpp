@@ -72,7 +72,7 @@ private:
         handler_.on_link_up(name);
     }
     void on_link_down(LinkId link, link::EndpointId, std::string_view why) override {
-        silence_.on_link_down(link);
+        silence_.on_link_down(link, sources_.links().counters(link));
         handler_.on_link_down(sources_.links().link_name(link), why);
     }
     void on_notice(link::EndpointId, std::string_view text) override { handler_.on_notice(text); }

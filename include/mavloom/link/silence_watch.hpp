@@ -25,11 +25,13 @@ public:
     void add(EndpointId endpoint, const endpoint::Endpoint& opened, MonoTime now);
     void remove(EndpointId endpoint);
     void on_link_up(LinkId link, EndpointId endpoint, MonoTime now);
-    void on_link_down(LinkId link);
+    // `counters` are those of the link; null if they are gone. An endpoint is heard, too, if its link came and went
+    // between two looks.
+    void on_link_down(LinkId link, const LinkCounters* counters);
 
     struct Silent {
         EndpointId endpoint;
-        LinkId link;  // 0: none is up
+        LinkId link;  // the newest one; 0: none is up
     };
     // Returns null for a link that is gone.
     using CountersOf = std::function<const LinkCounters*(LinkId)>;
@@ -42,13 +44,13 @@ private:
         EndpointId endpoint;
         bool waits_for_peers = false;      // it opens a port; other endpoints have a link as soon as they are connected
         bool calls = false;                // the far side may answer only what it hears
-        LinkId link{};                     // the newest one; 0: none is up
+        std::vector<LinkId> links{};       // those that are up, the newest one last
         MonoTime since = MonoTime::max();  // the start of the silence
         MonoTime sent_since = MonoTime::max();  // the first look that found a frame sent, and none newly refused
         std::uint64_t refused = 0;              // at the last look
         bool is_reported = false;
     };
-    // Whether to report the endpoint now. `link` is null if none is up.
+    // Whether to report the endpoint now. `link` is the newest one; null if none is up.
     [[nodiscard]] static bool is_due(Watched& watched, const LinkCounters* link, MonoTime now);
 
     std::vector<Watched> watched_;

@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-constexpr LinkId first{7};
+constexpr LinkId first{7}, second{8};
 constexpr EndpointId px4{3};
 constexpr MonoTime start{1000s};
 
@@ -25,14 +25,17 @@ struct Silence : testing::Test {
     std::size_t reports(Nanoseconds from, int seconds) {
         std::size_t count = 0;
         for (int i = 0; i < seconds; ++i)
-            count += sut.look([this](LinkId id) { return id == first ? &counters : nullptr; }, start + from + i * 1s)
+            count += sut.look([this](LinkId id) { return id == first    ? &counters
+                                                         : id == second ? &others
+                                                                        : nullptr; },
+                              start + from + i * 1s)
                          .size();
         return count;
     }
     void open(std::string_view url) { sut.add(px4, parsed(url), start); }
     void connect(Nanoseconds at = 0s) { sut.on_link_up(first, px4, start + at); }
 
-    LinkCounters counters;
+    LinkCounters counters, others;
     SilenceWatch sut;
 };
 
@@ -89,12 +92,39 @@ TEST_F(Silence, EndsWithItsLinkAndItsEndpoint) {
     open("tcpout://127.0.0.1:1");
     connect();
     EXPECT_EQ(reports(0s, 3), 0u);
-    sut.on_link_down(first);
+    sut.on_link_down(first, &counters);
     EXPECT_EQ(reports(3s, 60), 0u);
     connect(70s);
     sut.remove(px4);
 
     EXPECT_EQ(reports(70s, 60), 0u);
+}
+
+TEST_F(Silence, OfAPortIsNoneIfAnyClientWasHeard) {
+    open("tcpin://127.0.0.1:1");
+    connect();
+    sut.on_link_up(second, px4, start);
+    counters.frames_in.add();
+
+    EXPECT_EQ(reports(0s, 60), 0u) << "only the newest client was looked at";
+}
+
+TEST_F(Silence, OfAPortIsNoneIfAClientThatWasHeardHasLeft) {
+    open("tcpin://127.0.0.1:1");
+    connect();
+    sut.on_link_up(second, px4, start);
+    counters.frames_in.add();
+    sut.on_link_down(first, &counters);
+
+    EXPECT_EQ(reports(0s, 60), 0u) << "it came and went between two looks";
+}
+
+TEST_F(Silence, OfAPortIsReportedIfNoClientThatLeftWasHeard) {
+    open("tcpin://127.0.0.1:1");
+    connect();
+    sut.on_link_down(first, &counters);
+
+    EXPECT_EQ(reports(0s, 60), 1u);
 }
 
 TEST_F(Silence, StartsOverWhileFramesAreRefused) {
