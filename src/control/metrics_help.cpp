@@ -61,7 +61,7 @@ constexpr std::array helps{
     Help{"peers_displaced", "active peers that made room for a newcomer"},
     Help{"send_errors", "datagrams that met a closed port or that the kernel did not send"},
     Help{"reconnects", "connections and devices that were opened again"},
-    Help{"http_refused", "TCP clients that sent an HTTP request"},
+    Help{"http_refused", "TCP clients that spoke HTTP or TLS"},
     Help{"heartbeats_sent", "own heartbeats"},
     Help{"not_signed", "frames that sign= sent unchanged, because they were not verified on arrival"},
     Help{"unknown_link", "frames that arrived on links beyond the limit"},

@@ -79,7 +79,7 @@ struct EndpointCounters {
     Counter peers_limited;    // new peers turned away when they tried again, because too many tried again
     Counter peers_evicted;    // peers that were heard once or were idle, evicted for new ones
     Counter peers_displaced;  // active peers that were evicted for new ones (docs/guide/queues.md)
-    Counter http_refused;     // tcpin: clients that sent an HTTP request, and were disconnected
+    Counter http_refused;     // tcpin: HTTP and TLS clients, which were disconnected
     // Datagrams that the kernel rejected, or for which ICMP reported a closed port.
     Counter send_errors;
     Counter reconnects;

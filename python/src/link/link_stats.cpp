@@ -158,7 +158,7 @@ void bind_link_stats(nb::module_& module) {
         .def_prop_ro("peers_displaced", of_endpoint<&E::peers_displaced>(),
                      "Active peers that were evicted for new ones.")
         .def_prop_ro("http_refused", of_endpoint<&E::http_refused>(),
-                     "Clients of a `tcpin` that sent an HTTP request, and were disconnected.")
+                     "HTTP and TLS clients of a `tcpin`, which were disconnected.")
         .def_prop_ro("queue_bytes", of_links<&L::queue_bytes>(),
                      "Outgoing frames that were dropped because the queue was full.")
         .def_prop_ro("queue_age", of_links<&L::queue_age>(),

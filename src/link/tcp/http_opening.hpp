@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Recognises an HTTP request by the first bytes of a TCP client. A web page may make the browser send any bytes to any
-// port of this machine, but only behind a request line. So no page can send MAVLink if such clients are disconnected.
+// Recognises an HTTP or TLS client by the first bytes of a TCP client. A web page may make the browser send any bytes
+// to any port of this machine, but only behind a request line or, for https, inside TLS. So no page can send MAVLink if
+// such clients are disconnected.
 // Private to module link.
 //
 // The methods are those of RFC 9110 and 5789, and PRI, which opens HTTP/2 (RFC 9113). They are upper case; a browser
-// asks by OPTIONS before it sends any other method for a page of another origin. No MAVLink frame starts with a letter.
+// asks by OPTIONS before it sends any other method for a page of another origin. TLS opens with a handshake record of
+// major version 3 (RFC 8446). No MAVLink frame starts with a letter or with 0x16.
 #pragma once
 
 #include <algorithm>
@@ -31,12 +33,12 @@ public:
     }
 
 private:
-    static constexpr std::array<std::string_view, 10> methods{"GET ",   "POST ",   "PUT ",     "HEAD ",  "OPTIONS ",
-                                                              "PATCH ", "DELETE ", "CONNECT ", "TRACE ", "PRI "};
+    static constexpr std::array<std::string_view, 11> openings{
+        "GET ", "POST ", "PUT ", "HEAD ", "OPTIONS ", "PATCH ", "DELETE ", "CONNECT ", "TRACE ", "PRI ", "\x16\x03"};
 
     [[nodiscard]] static Verdict judge(std::string_view seen) noexcept {
-        const auto match = std::ranges::find_if(methods, [&](auto method) { return method.starts_with(seen); });
-        if (match == methods.end()) return Verdict::other;
+        const auto match = std::ranges::find_if(openings, [&](auto opening) { return opening.starts_with(seen); });
+        if (match == openings.end()) return Verdict::other;
         return match->size() == seen.size() ? Verdict::http : Verdict::undecided;
     }
 

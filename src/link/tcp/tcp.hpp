@@ -19,7 +19,7 @@ public:
     virtual ~TcpOwner() = default;
     // Called when the stream has ended. The peer is detached and may be passed to Core::bury.
     virtual void on_closed(TcpPeer& peer, std::string_view why) = 0;
-    // Called when a client's first bytes are an HTTP request. Closes the client.
+    // Called when a client's first bytes are those of HTTP or TLS. Closes the client.
     virtual void on_http(TcpPeer&) {}
 };
 
@@ -47,7 +47,7 @@ public:
     MonoTime connected_at{};
     net::Address host;  // of a client of a tcpin: Address::host_part()
 
-    // Watches for an HTTP request at the start of the stream. Call it for the clients of a tcpin.
+    // Watches for an HTTP request or TLS at the start of the stream. Call it for the clients of a tcpin.
     void refuse_http() noexcept { opening_ = HttpOpening(); }
     [[nodiscard]] bool accepts(ByteView bytes) {
         if (!opening_) [[likely]]

@@ -167,17 +167,18 @@ bool TcpIn::make_room(const net::Address& newcomer) {
     return true;
 }
 
-// A browser sends such a request for any web page that it shows, and the rest of the request may be MAVLink.
+// A browser sends such a request for any web page that it shows, and the rest of the request may be MAVLink. In TLS,
+// the page chooses hardly any bytes, but no such client is one of MAVLink.
 void TcpIn::on_http(TcpPeer& peer) {
     counters.http_refused.add();
     if (!std::exchange(reported_http_, true)) {
         core_.events.notice(info.id,
-                            fmt::format("{}: {} sent an HTTP request, as a web page in a browser would, and was "
+                            fmt::format("{}: {} is an HTTP or TLS client, such as a web page in a browser, and was "
                                         "disconnected; this port takes MAVLink only. Further such clients are counted "
                                         "(http_refused)",
                                         info.endpoint.label(), peer.stream().remote().text()));
     }
-    peer.close("HTTP request");
+    peer.close("HTTP or TLS client");
 }
 
 void TcpIn::pause() {

@@ -124,7 +124,7 @@ def test_a_web_page_commands_no_vehicle(spawn):
         with routers.tcp_client(client_port) as station:
             station.send(order := command(STATION, VEHICLE))
             assert vehicle.until(order) == []
-    assert router.process.stderr.count("sent an HTTP request") == 1
+    assert router.process.stderr.count("is an HTTP or TLS client") == 1
 
 
 def test_invented_ids_on_many_links_starve_nobody_afterwards(pair):

@@ -218,7 +218,7 @@ def test_a_web_page_arms_no_simulated_vehicle(sim):
         with contextlib.suppress(ConnectionResetError):
             while page.recv(65536):
                 pass
-    simulator.process.wait_output("sent an HTTP request")
+    simulator.process.wait_output("is an HTTP or TLS client")
 
 
 def telemetry_of(program, *options):

@@ -264,6 +264,14 @@ TEST_F(LinksTcpHttp, ARequestThatComesByteByByteIsRefused) {
     EXPECT_TRUE(is_refused());
 }
 
+// The first bytes of a ClientHello: record type 22, version 3.1 (RFC 8446, section 5.1), length, type 1.
+TEST_F(LinksTcpHttp, AHandshakeOfTlsIsRefused) {
+    const auto page = connect();
+    page.write(Bytes{0x16, 0x03, 0x01, 0x02, 0x00, 0x01} + heartbeat(1));
+    EXPECT_TRUE(is_refused());
+    EXPECT_THAT(node.recorder.frames, SizeIs(0));
+}
+
 TEST_F(LinksTcpHttp, IsReportedOnce) {
     for (std::uint64_t count = 1; count <= 3; ++count) {
         const auto page = connect();
