@@ -269,7 +269,8 @@ private:
             return {};
         } catch (const boost::system::system_error& error) {
             return net::bind_error(fmt::format("metrics on {}:{}", address.host, address.port), error.code().value(),
-                                   net::Transport::tcp, address.port);
+                                   net::Transport::tcp,
+                                   net::Address::parse(address.host, address.port).value_or(net::Address()));
         }
     }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/net/port_holder.hpp"
 
+#include <arpa/inet.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <filesystem>
@@ -29,22 +31,44 @@ std::string first_line(const fs::path& file) {
     return line;
 }
 
-// Adds the sockets of one line of /proc/net/udp or tcp that are bound to the port, as their links in /proc/PID/fd show
-// them.
-void add_socket(const std::string& line, Transport transport, std::uint16_t port, std::set<std::string>& sockets) {
+// An address of the tables, such as 0100007F:1F90: the 32-bit words of the address in the order of the machine, and the
+// port.
+std::optional<Address> listed_address(std::string_view text) {
+    constexpr std::size_t digits = 8;
+    const auto number = [](std::string_view hex) {
+        std::uint32_t value = 0;
+        std::from_chars(hex.data(), hex.data() + hex.size(), value, 16);
+        return value;
+    };
+    const auto colon = text.find(':');
+    if (colon != digits && colon != 4 * digits) return std::nullopt;
+    std::array<std::uint32_t, 4> words{};
+    for (std::size_t i = 0; i < colon / digits; ++i) words[i] = number(text.substr(i * digits, digits));
+    std::array<char, INET6_ADDRSTRLEN> host{};
+    ::inet_ntop(colon == digits ? AF_INET : AF_INET6, words.data(), host.data(), host.size());
+    return Address::parse(host.data(), static_cast<std::uint16_t>(number(text.substr(colon + 1))));
+}
+
+bool conflict(const Address& a, const Address& b) {
+    if (a.port() != b.port()) return false;
+    return a.is_any() || b.is_any() || a.with_scope(0).unmapped() == b.with_scope(0).unmapped();
+}
+
+// Adds the socket of one line of /proc/net/udp or tcp if it holds the address, as its link in /proc/PID/fd shows it.
+void add_socket(const std::string& line, Transport transport, const Address& wanted, std::set<std::string>& sockets) {
     std::istringstream words(line);
     std::string number, local, remote, state, queues, timer, retransmits, user, timeout, inode;
     words >> number >> local >> remote >> state >> queues >> timer >> retransmits >> user >> timeout >> inode;
     if (transport == Transport::tcp && state != tcp_listening) return;
-    if (!inode.empty() && local.ends_with(fmt::format(":{:04X}", port)))
-        sockets.insert(fmt::format("socket:[{}]", inode));
+    const auto listed = listed_address(local);
+    if (!inode.empty() && listed && conflict(*listed, wanted)) sockets.insert(fmt::format("socket:[{}]", inode));
 }
 
-std::set<std::string> sockets_on(Transport transport, std::uint16_t port) {
+std::set<std::string> sockets_on(Transport transport, const Address& local) {
     std::set<std::string> sockets;
     for (const std::string_view family : {"", "6"}) {
         std::ifstream table(fmt::format("/proc/net/{}{}", transport == Transport::udp ? "udp" : "tcp", family));
-        for (std::string line; std::getline(table, line);) add_socket(line, transport, port, sockets);
+        for (std::string line; std::getline(table, line);) add_socket(line, transport, local, sockets);
     }
     return sockets;
 }
@@ -67,8 +91,8 @@ std::optional<int> process_id(const fs::path& folder) {
 
 }  // namespace
 
-std::string port_holder(Transport transport, std::uint16_t port) {
-    const auto sockets = sockets_on(transport, port);
+std::string port_holder(Transport transport, const Address& local) {
+    const auto sockets = sockets_on(transport, local);
     if (sockets.empty()) return {};
     std::error_code failed;
     for (fs::directory_iterator process("/proc", failed), end; !failed && process != end; process.increment(failed)) {
@@ -80,10 +104,10 @@ std::string port_holder(Transport transport, std::uint16_t port) {
     return {};
 }
 
-tl::unexpected<SetupError> bind_error(std::string_view what, int err, Transport transport, std::uint16_t port) {
+tl::unexpected<SetupError> bind_error(std::string_view what, int err, Transport transport, const Address& local) {
     auto error = system_error(what, err);
     if (err != EADDRINUSE) return error;
-    if (const auto holder = port_holder(transport, port); !holder.empty()) error.value().text += " by " + holder;
+    if (const auto holder = port_holder(transport, local); !holder.empty()) error.value().text += " by " + holder;
     return error;
 }
 

@@ -34,9 +34,8 @@ SetupResult<TcpStream> TcpStream::start_connect(const Address& remote, const std
     set_stream_options(fd.get());
     if (local) {
         set_option(fd.get(), SOL_SOCKET, SO_REUSEADDR, 1);
-        if (::bind(fd.get(), local->data(), local->size()) != 0) {
-            return bind_error(fmt::format("cannot bind TCP {}", local->text()), errno, Transport::tcp, local->port());
-        }
+        if (::bind(fd.get(), local->data(), local->size()) != 0)
+            return system_error(fmt::format("cannot bind TCP {}", local->text()), errno);
     }
     if (::connect(fd.get(), remote.data(), remote.size()) != 0 && errno != EINPROGRESS) {
         return system_error(fmt::format("cannot connect to {}", remote.text()), errno);
@@ -83,7 +82,7 @@ SetupResult<TcpListener> TcpListener::open(const Address& local, bool v6_only) {
     // refused.
     set_option(fd, SOL_SOCKET, SO_REUSEADDR, 1);
     if (::bind(fd, local.data(), local.size()) != 0 || ::listen(fd, SOMAXCONN) != 0) {
-        return bind_error(fmt::format("cannot listen on TCP {}", local.text()), errno, Transport::tcp, local.port());
+        return bind_error(fmt::format("cannot listen on TCP {}", local.text()), errno, Transport::tcp, local);
     }
     auto bound = local_address(fd);
     if (!bound) return tl::unexpected(std::move(bound).error());

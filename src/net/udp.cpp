@@ -171,8 +171,11 @@ SetupResult<UdpSocket> UdpSocket::open(const Address& local, const UdpOptions& o
     if (auto done = bind_to_device(fd, options.device); !done) return tl::unexpected(std::move(done).error());
     if (auto done = choose_group_interface(fd, local.is_v6(), options.group_interface); !done)
         return tl::unexpected(std::move(done).error());
-    if (::bind(fd, local.data(), local.size()) != 0)
-        return bind_error(fmt::format("cannot bind UDP {}", local.text()), errno, Transport::udp, local.port());
+    if (::bind(fd, local.data(), local.size()) != 0) {
+        const int error = errno;
+        const auto what = fmt::format("cannot bind UDP {}", local.text());
+        return options.names_holder ? bind_error(what, error, Transport::udp, local) : system_error(what, error);
+    }
     if (options.group) {
         if (auto done = join(fd, *options.group, options.group_interface); !done)
             return tl::unexpected(std::move(done).error());

@@ -14,12 +14,13 @@ namespace mavloom::net {
 
 enum class Transport : std::uint8_t { udp, tcp };
 
-// "mavproxy.py (process 1234)" or "this process". Empty if no process is visible that holds the port.
-[[nodiscard]] std::string port_holder(Transport transport, std::uint16_t port);
+// "mavproxy.py (process 1234)" or "this process": who holds the port at this address, or at all addresses. Empty if no
+// such process is visible. Takes milliseconds.
+[[nodiscard]] std::string port_holder(Transport transport, const Address& local);
 
 // The error of a bind() that failed with `err`, with the holder of the port if the port is in use. `what` begins its
 // text.
 [[nodiscard]] tl::unexpected<SetupError> bind_error(std::string_view what, int err, Transport transport,
-                                                    std::uint16_t port);
+                                                    const Address& local);
 
 }  // namespace mavloom::net

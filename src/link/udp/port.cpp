@@ -68,7 +68,9 @@ UdpPort::~UdpPort() {
 }
 
 SetupResult<void> UdpPort::open(const net::Address& local, const net::UdpOptions& options) {
-    auto socket = net::UdpSocket::open(local, options);
+    auto wanted = options;
+    wanted.names_holder = !std::exchange(tried_, true);
+    auto socket = net::UdpSocket::open(local, wanted);
     if (!socket) return tl::unexpected(std::move(socket).error());
     auto watch = core_.loop().watch(socket->fd(), true, false, *this);
     if (!watch) return tl::unexpected(std::move(watch).error());

@@ -142,6 +142,7 @@ private:
     std::vector<UdpPeer*> unsettled_;
     std::uint64_t unsettled_turn_ = 0;  // Core::turns() when frames were sent to the peers in `unsettled_`
     std::uint32_t last_drops_ = 0;
+    bool tried_ = false;  // to open the socket: who holds the port is looked up once
     ReadBudget budget_{1, net::ReceiveBatch::slots};
 };
 

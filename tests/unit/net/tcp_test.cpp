@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "mavloom/net/port_holder.hpp"
+
 namespace mavloom::net {
 namespace {
 
@@ -100,6 +102,33 @@ TEST_F(Tcp, APortInUseIsNamed) {
     ASSERT_FALSE(second);
     EXPECT_EQ(second.error().code, SetupCode::in_use);
     EXPECT_NE(second.error().text.find(listener.local().text()), std::string::npos) << second.error().text;
+}
+
+TEST_F(Tcp, AConnectionFromAPortInUseSearchesForNoHolder) {
+    const auto refused = TcpStream::start_connect(*Address::parse("127.0.0.1", 9), listener.local());
+    ASSERT_FALSE(refused);
+    EXPECT_TRUE(refused.error().text.ends_with("in use")) << refused.error().text << ": each retry reads /proc";
+}
+
+TEST(PortHolder, HasTheSameAddressOrAll) {
+    const auto listener = TcpListener::open(*Address::parse("127.0.0.2", 0), false);
+    ASSERT_TRUE(listener) << listener.error().text;
+    const auto holder_at = [&](std::string_view host) {
+        return port_holder(Transport::tcp, *Address::parse(host, listener->local().port()));
+    };
+    EXPECT_EQ(holder_at("127.0.0.2"), "this process");
+    EXPECT_EQ(holder_at("::ffff:127.0.0.2"), "this process");
+    EXPECT_EQ(holder_at("0.0.0.0"), "this process");
+    EXPECT_EQ(holder_at("::"), "this process");
+    EXPECT_EQ(holder_at("127.0.0.3"), "");
+}
+
+TEST(PortHolder, OfAllAddressesHasEachOfThem) {
+    for (const auto* all : {"0.0.0.0", "::"}) {
+        const auto listener = TcpListener::open(*Address::parse(all, 0), false);
+        ASSERT_TRUE(listener) << listener.error().text;
+        EXPECT_EQ(port_holder(Transport::tcp, *Address::parse("127.0.0.3", listener->local().port())), "this process");
+    }
 }
 
 TEST_F(Tcp, ARefusedConnectionIsNamed) {
