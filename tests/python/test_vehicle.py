@@ -197,6 +197,17 @@ def test_a_refusal_has_the_texts_that_came_around_it(peer):
             asyncio.run(vehicle.link.vehicle_async(1).arm())
 
 
+def test_a_later_part_of_an_unnumbered_text_is_a_text(peer):
+    """Number 0: the text has one part (common.xml, STATUSTEXT). It was an IndexError."""
+    def refuse(message):
+        stub.send(stub.ack(message, 4), text(peer, "Arming denied", 4, 0, 1))
+    with flown(peer) as (vehicle, stub):
+        stub.on_command_long = refuse
+        with pytest.raises(mavloom.CommandError) as caught:
+            vehicle.arm()
+    assert caught.value.texts == ("Arming denied",)
+
+
 def test_a_refusal_without_a_text(peer):
     with flown(peer, refuse={400: 4}) as (vehicle, _), pytest.raises(mavloom.CommandError) as caught:
         vehicle.arm()

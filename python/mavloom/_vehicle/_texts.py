@@ -27,7 +27,7 @@ class Texts:
         """Takes a STATUSTEXT."""
         if message["severity"] > NOTICE:
             return
-        if message["chunk_seq"] > 0 and message["id"] == self._long_id:
+        if self._long_id and message["chunk_seq"] > 0 and message["id"] == self._long_id:
             self._texts[-1] += message["text"]
             return
         self._long_id = message["id"]

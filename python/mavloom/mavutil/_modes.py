@@ -99,7 +99,9 @@ def interpret_px4_mode(base_mode: int, custom_mode: int) -> str:
 
 
 def px4_numbers(name: str) -> tuple[int, int, int] | None:
-    """(base mode, main mode, sub mode) of a name in any vocabulary; None if there is no such mode."""
+    """(base mode, main mode, sub mode) of a name in `px4_map` or in any vocabulary; None if there is no such mode."""
+    if name in px4_map:
+        return px4_map[name]
     custom_mode = _modes.custom_mode_of(_modes.AUTOPILOT_PX4, 0, name)
     if custom_mode is None:
         return None

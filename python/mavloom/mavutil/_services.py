@@ -89,7 +89,9 @@ class mavfile(Connection):
         """Requests a mode of ArduPilot."""
         number: Any = mode
         if isinstance(mode, str):
-            number = _modes.custom_mode_of(_modes.AUTOPILOT_ARDUPILOT, self.mav_type, mode)
+            number = (self.mode_mapping() or {}).get(mode)  # a script may have changed pymavlink's tables
+            if number is None:
+                number = _modes.custom_mode_of(_modes.AUTOPILOT_ARDUPILOT, self.mav_type, mode)
             if number is None:
                 print(f"Unknown mode '{mode}'")
                 return

@@ -83,6 +83,20 @@ def test_other_components_do_not_change_the_modes_of_their_vehicle(autopilot, cu
         assert sent_by(ours, order, peer) == sent_by(alone, order, peer) != []
 
 
+@pytest.mark.parametrize("autopilot, custom", [(PX4, PX4_LOITER), (ARDUPILOT, 4)])
+def test_modes_that_a_script_adds_to_the_tables_count(autopilot, custom, peer, tmp_path, monkeypatch, their_mavutil):
+    monkeypatch.setitem(mavutil.px4_map, "PARK", (29, 4, 6))
+    monkeypatch.setitem(mavutil.AP_MAV_TYPE_MODE_MAP, QUADROTOR, {77: "PARK", 78: "RTL"})
+    frames = [Crew(peer).heartbeat((1, 1), QUADROTOR, autopilot, 209, custom)]
+    _, log = both_read(tmp_path / "x.tlog", frames, their_mavutil)
+    numbers = (29, 4, 6) if autopilot == PX4 else (77,)
+    park = sent_by(log, lambda log: log.set_mode("PARK"), peer)
+    assert park == sent_by(log, lambda log: log.set_mode(*numbers), peer) != []
+    if autopilot == ARDUPILOT:
+        changed = sent_by(log, lambda log: log.set_mode("RTL"), peer)
+        assert changed == sent_by(log, lambda log: log.set_mode(78), peer)
+
+
 SUMMARIES = {
     "copter": [high_latency(QUADROTOR, ARDUPILOT)], "plane": [high_latency(1, ARDUPILOT, 10)],
     "unknown mode": [high_latency(QUADROTOR, ARDUPILOT, 99)], "armed": [high_latency(QUADROTOR, ARDUPILOT, 5, -64)],
