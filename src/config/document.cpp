@@ -132,13 +132,26 @@ std::uint32_t line_of_mavlink_router(std::string_view text) {
     return 0;
 }
 
+// Returns whether TOML takes the text as a value.
+bool is_value(std::string_view text) {
+    try {
+        return !toml::parse(fmt::format("x = {}", text)).empty();
+    } catch (const toml::parse_error&) {  // the library reports errors only this way
+        return false;
+    }
+}
+
+// The line without a comment at its end.
+std::string_view without_comment(std::string_view line) { return line_at(line.substr(0, line.find(" #")), 1); }
+
 // A hint for `url = udpin://0.0.0.0:14550`: text needs quotes.
 std::string quotes_hint(std::string_view line) {
     constexpr std::string_view begins_a_value = "\"'[{#";
     const auto equals = line.find('=');
     if (equals == std::string_view::npos) return {};
-    const auto key = line_at(line.substr(0, equals), 1), value = line_at(line.substr(equals + 1), 1);
+    const auto key = line_at(line.substr(0, equals), 1), value = without_comment(line.substr(equals + 1));
     if (key.empty() || value.empty() || begins_a_value.find(value.front()) != std::string_view::npos) return {};
+    if (is_value(value)) return {};  // the error is another one, such as a key that is given twice
     return fmt::format("; text is written in quotes: {} = \"{}\"", shown(key), shown(value));
 }
 

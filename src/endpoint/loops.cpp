@@ -24,8 +24,8 @@ bool is_own_name(const std::string& host) {
 bool hears(const std::string& bound, const std::string& host, bool broadcast) {
     const auto here = net::Address::parse(bound == "localhost" ? "127.0.0.1" : bound, 0);
     const auto there = net::Address::parse(host == "localhost" ? "127.0.0.1" : host, 0);
+    if (!here) return bound == host;  // only a look-up finds the address of a name
     if (!there) return is_own_name(host);
-    if (!here) return true;
     if (!here->is_any()) return *here == *there;
     if (here->is_v4() && !there->is_v4()) return false;
     return broadcast || there->is_loopback() || net::OwnAddresses().contains(*there, mono_now());

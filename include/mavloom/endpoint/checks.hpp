@@ -34,8 +34,8 @@ enum class RoutingOptions : std::uint8_t { refused, by_owner };
 // machines hear them too.
 [[nodiscard]] SetupResult<void> check_not_called(const Endpoint& a, const Endpoint& b);
 
-// Refuses the name of a log that flight controllers write to their own storage (ULog, DataFlash): it contains no
-// MAVLink. The error names the programs that read it.
+// Refuses the name of a log that flight controllers write to their own storage (ULog, DataFlash) where an endpoint is
+// expected. The error names the programs that read it. A command that opens any file looks at the file's first bytes.
 [[nodiscard]] SetupResult<void> check_recording_name(std::string_view path);
 // Refuses the option `speed` for a recording that is to be written. Only recordings that are read have it.
 [[nodiscard]] SetupResult<void> check_written(const Endpoint& recording);

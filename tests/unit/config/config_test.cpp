@@ -220,7 +220,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"# x\n[UdpEndpoint alpha]\nMode = Server\n", "r.toml:2: this is a configuration of mavlink-router"},
         Bad{"[[endpoint]]\nurl = udpin://0.0.0.0:14550\n",
             "text is written in quotes: url = \"udpin://0.0.0.0:14550\""},
-        Bad{"[ring]\nmode=rw\n", "text is written in quotes: mode = \"rw\""},
+        Bad{"[ring]\nmode=rw # readable\n", "text is written in quotes: mode = \"rw\""},
         Bad{"[[endpoint]]\nscheme = \"serial\"\ndevice = \"/dev/ttyACM0\"\n",
             "r.toml:3: [[endpoint]] has no key 'device'; write path = \"/dev/ttyACM0\""},
         Bad{"[[endpoint]]\nscheme = \"udpin\"\naddress = \"0.0.0.0\"\n", "write host = \"0.0.0.0\""},
@@ -241,6 +241,14 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"[[endpoint]]\nscheme = \"shm\"\n", "shm needs ring"},
         Bad{"[[endpoint]]\nurl = \"udpin://0.0.0.0:1\"\n[[endpoint]]\nurl = \"udpin:0.0.0.0:1\"\n",
             "r.toml:3: two endpoints are named 'udpin://0.0.0.0:1'"}));
+
+TEST(Config, AKeyThatIsGivenTwiceGetsNoHintAboutQuotes) {
+    const auto twice = parse_config("[router]\ndedup_ms = 1\ndedup_ms = 2 # again\n", "r.toml", {});
+
+    ASSERT_FALSE(twice.has_value());
+    EXPECT_THAT(twice.error().text, HasSubstr("r.toml:3: "));
+    EXPECT_THAT(twice.error().text, testing::Not(HasSubstr("quotes")));
+}
 
 TEST(Config, AVariableThatSetsNothingIsAnError) {
     const auto misspelt = parse_config("", "r.toml", {{"MAVLOOM_ROUTER_DEDUPMS", "1"}});

@@ -468,6 +468,8 @@ INSTANTIATE_TEST_SUITE_P(Endpoints, Loops,
                                          Pair{"udpin://0.0.0.0:14540", "udpout://127.0.0.1:14541", false},
                                          Pair{"udpin://0.0.0.0:14540", "udpout://192.0.2.1:14540", false},
                                          Pair{"udpin://0.0.0.0:5760", "tcpout://127.0.0.1:5760", false},
+                                         Pair{"udpin://gcs.lan:14540", "udpout://gcs.lan:14540", true},
+                                         Pair{"udpin://gcs.lan:14540", "udpout://192.0.2.1:14540", false},
                                          Pair{"udpin://0.0.0.0:14550", "udpbcast://127.255.255.255:14550", false}));
 
 }  // namespace
