@@ -10,7 +10,6 @@
 #include "command.hpp"
 #include "mavloom/base/counted.hpp"
 #include "mavloom/base/shown.hpp"
-#include "mavloom/endpoint/checks.hpp"
 #include "mavloom/feed/sources.hpp"
 #include "mavloom/link/flush.hpp"
 #include "mavloom/record/tlog_index.hpp"
@@ -151,8 +150,6 @@ Exit replay(const Common& common, ReplayOptions& options) {
     if (!dialect) return fail(dialect.error());
     if (auto resolved = options.selection.resolve(*dialect); !resolved) return fail(resolved.error());
     const bool is_endpoint = endpoint::is_recording_path(options.file) || options.file.find("://") != std::string::npos;
-    if (auto good = endpoint::check_recording_name(options.file); !good)
-        return fail(std::move(good.error()).within(shown(options.file)));
     auto endpoint = endpoint::parse_endpoint(is_endpoint ? options.file : "tlog://" + options.file);
     if (!endpoint) return fail(endpoint.error());
     if (endpoint->scheme != endpoint::Scheme::tlog)

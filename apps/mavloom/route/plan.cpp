@@ -78,7 +78,7 @@ std::vector<config::Override> RouteOptions::overrides() const {
     for (std::size_t i = 0; i < keys.size(); ++i) {
         const config::ConfigKey& key = config::config_keys()[i];
         const bool is_flag = key.option.placeholder == nullptr;
-        const auto value = is_flag ? std::string(has_metrics_detail ? "true" : "") : keys[i];
+        const auto value = is_flag ? std::string(flags[i] ? "true" : "") : keys[i];
         if (key.option.name != nullptr && !value.empty())
             all.push_back({key.option.name, key.section, key.name, value});
     }

@@ -2,6 +2,7 @@
 // The plan of `mavloom route`: its options, and the endpoints of the configuration file and the command line.
 #pragma once
 
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,8 @@ struct RouteOptions {
     std::string explain;  // a message's name or id; "*": all
     // The options of the configuration keys, in the order of `config_keys()`. Empty: not given.
     std::vector<std::string> keys = std::vector<std::string>(config::config_keys().size());
-    bool has_metrics_detail = false;
+    // Of the keys that are flags: whether they are given. A deque, because the command line refers to its elements.
+    std::deque<bool> flags = std::deque<bool>(config::config_keys().size());
 
     // Those as settings that take precedence over the file's.
     [[nodiscard]] std::vector<config::Override> overrides() const;

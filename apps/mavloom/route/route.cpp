@@ -171,8 +171,7 @@ void declare_keys(Arguments command, RouteOptions& options) {
     for (std::size_t i = 0; i < options.keys.size(); ++i) {
         const config::KeyOption& option = config::config_keys()[i].option;
         if (option.name == nullptr) continue;
-        if (option.placeholder == nullptr)
-            command.add_flag(option.name, options.has_metrics_detail, option.description);
+        if (option.placeholder == nullptr) command.add_flag(option.name, options.flags[i], option.description);
         else command.add_option(option.name, option.placeholder, options.keys[i], option.description);
     }
 }

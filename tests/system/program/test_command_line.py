@@ -73,7 +73,6 @@ def test_an_option_before_the_command_is_explained(run, arguments):
 @pytest.mark.parametrize("arguments, said", [
     (["play", "x.tlog"], "unknown command 'play', did you mean 'replay'?"),
     (["listen", "00000012.BIN"], "ArduPilot's own log (DataFlash)"),
-    (["replay", "flight.ulg", "--to", OUT], "PX4's own log (ULog)"),
     (["replay", "x.tlog", OUT], f"'{OUT}' is not expected here; to send there, type --to {OUT}"),
     (["ctl", "takeoff", "10"], "the name of the simulator comes before it: mavloom ctl sim takeoff 10"),
     (["ctl", "links"], "the name of the router or simulator comes before it: mavloom ctl router links"),
