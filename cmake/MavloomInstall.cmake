@@ -27,10 +27,18 @@ function(mavloom_strip_installed component)
   if(NOT CMAKE_BUILD_TYPE STREQUAL "Release")
     return()
   endif()
-  list(TRANSFORM ARGN PREPEND "\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/" OUTPUT_VARIABLE patterns)
+  set(patterns "")
+  foreach(pattern IN LISTS ARGN)
+    if(NOT IS_ABSOLUTE "${pattern}")  # distributions may set absolute folders
+      string(PREPEND pattern "\${CMAKE_INSTALL_PREFIX}/")
+    endif()
+    string(APPEND patterns " \"\$ENV{DESTDIR}${pattern}\"")
+  endforeach()
   install(CODE "
     file(GLOB files ${patterns})
-    execute_process(COMMAND \"${CMAKE_STRIP}\" --strip-debug \${files} COMMAND_ERROR_IS_FATAL ANY)"
+    if(files)
+      execute_process(COMMAND \"${CMAKE_STRIP}\" --strip-debug \${files} COMMAND_ERROR_IS_FATAL ANY)
+    endif()"
     COMPONENT ${component})
 endfunction()
 mavloom_strip_installed(mavloom_development "${CMAKE_INSTALL_LIBDIR}/libmavloom_*.a"

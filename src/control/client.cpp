@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The client side of control.hpp: finds a program's control socket and sends it a request.
 #include <fmt/format.h>
+#include <sys/socket.h>
 
 #include <algorithm>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/local/stream_protocol.hpp>
 #include <boost/asio/read.hpp>
 #include <boost/asio/write.hpp>
+#include <cerrno>
 #include <nlohmann/json.hpp>
 
 #include "mavloom/control/control.hpp"
@@ -46,8 +48,12 @@ bool is_served(const std::filesystem::path& path) {
     asio::io_context context;
     Local::socket socket(context);
     error_code error;
-    socket.connect(Local::endpoint(path.string()), error);
-    return !error;
+    socket.open(Local(), error);
+    if (!error) socket.non_blocking(true, error);
+    if (error) return false;
+    // A program that is busy may not accept now; do not wait for it.
+    const Local::endpoint to(path.string());
+    return ::connect(socket.native_handle(), to.data(), static_cast<socklen_t>(to.size())) == 0 || errno == EAGAIN;
 }
 
 // The names of the programs whose control sockets are in the folder.

@@ -13,7 +13,6 @@ namespace mavloom::message {
 
 namespace {
 
-using namespace msg;
 using Modes = std::span<const FlightMode>;
 
 struct Vehicle {
@@ -23,26 +22,26 @@ struct Vehicle {
 
 // The types that ArduPilot sends.
 constexpr auto ardupilot_vehicles = std::to_array<Vehicle>({
-    {MAV_TYPE_FIXED_WING, plane_flight_modes},
-    {MAV_TYPE_QUADROTOR, copter_flight_modes},
-    {MAV_TYPE_COAXIAL, copter_flight_modes},
-    {MAV_TYPE_HELICOPTER, copter_flight_modes},
-    {MAV_TYPE_ANTENNA_TRACKER, tracker_flight_modes},
-    {MAV_TYPE_AIRSHIP, blimp_flight_modes},
-    {MAV_TYPE_GROUND_ROVER, rover_flight_modes},
-    {MAV_TYPE_SURFACE_BOAT, rover_flight_modes},
-    {MAV_TYPE_SUBMARINE, sub_flight_modes},
-    {MAV_TYPE_HEXAROTOR, copter_flight_modes},
-    {MAV_TYPE_OCTOROTOR, copter_flight_modes},
-    {MAV_TYPE_TRICOPTER, copter_flight_modes},
-    {MAV_TYPE_VTOL_TAILSITTER_DUOROTOR, plane_flight_modes},
-    {MAV_TYPE_VTOL_TAILSITTER_QUADROTOR, plane_flight_modes},
-    {MAV_TYPE_VTOL_TILTROTOR, plane_flight_modes},
-    {MAV_TYPE_VTOL_FIXEDROTOR, plane_flight_modes},
-    {MAV_TYPE_VTOL_TAILSITTER, plane_flight_modes},
-    {MAV_TYPE_VTOL_TILTWING, plane_flight_modes},
-    {MAV_TYPE_DODECAROTOR, copter_flight_modes},
-    {MAV_TYPE_DECAROTOR, copter_flight_modes},
+    {msg::MAV_TYPE_FIXED_WING, plane_flight_modes},
+    {msg::MAV_TYPE_QUADROTOR, copter_flight_modes},
+    {msg::MAV_TYPE_COAXIAL, copter_flight_modes},
+    {msg::MAV_TYPE_HELICOPTER, copter_flight_modes},
+    {msg::MAV_TYPE_ANTENNA_TRACKER, tracker_flight_modes},
+    {msg::MAV_TYPE_AIRSHIP, blimp_flight_modes},
+    {msg::MAV_TYPE_GROUND_ROVER, rover_flight_modes},
+    {msg::MAV_TYPE_SURFACE_BOAT, rover_flight_modes},
+    {msg::MAV_TYPE_SUBMARINE, sub_flight_modes},
+    {msg::MAV_TYPE_HEXAROTOR, copter_flight_modes},
+    {msg::MAV_TYPE_OCTOROTOR, copter_flight_modes},
+    {msg::MAV_TYPE_TRICOPTER, copter_flight_modes},
+    {msg::MAV_TYPE_VTOL_TAILSITTER_DUOROTOR, plane_flight_modes},
+    {msg::MAV_TYPE_VTOL_TAILSITTER_QUADROTOR, plane_flight_modes},
+    {msg::MAV_TYPE_VTOL_TILTROTOR, plane_flight_modes},
+    {msg::MAV_TYPE_VTOL_FIXEDROTOR, plane_flight_modes},
+    {msg::MAV_TYPE_VTOL_TAILSITTER, plane_flight_modes},
+    {msg::MAV_TYPE_VTOL_TILTWING, plane_flight_modes},
+    {msg::MAV_TYPE_DODECAROTOR, copter_flight_modes},
+    {msg::MAV_TYPE_DECAROTOR, copter_flight_modes},
 });
 
 constexpr std::string_view ignored = " _-.:";
@@ -79,8 +78,8 @@ bool has_name(const FlightMode& mode, std::string_view name) noexcept {
 }  // namespace
 
 Modes flight_modes(std::uint8_t autopilot, std::uint8_t type) noexcept {
-    if (autopilot == MAV_AUTOPILOT_PX4) return px4_flight_modes;
-    if (autopilot != MAV_AUTOPILOT_ARDUPILOTMEGA) return {};
+    if (autopilot == msg::MAV_AUTOPILOT_PX4) return px4_flight_modes;
+    if (autopilot != msg::MAV_AUTOPILOT_ARDUPILOTMEGA) return {};
     const auto* const vehicle = std::ranges::find(ardupilot_vehicles, type, &Vehicle::type);
     return vehicle == ardupilot_vehicles.end() ? Modes{} : vehicle->modes;
 }
@@ -98,12 +97,12 @@ std::optional<std::uint32_t> mode_number(Modes modes, std::string_view name) noe
 
 // The checksum's seed covers the types and names of the fields, so another definition of this id has another one.
 bool has_mode(const dialect::Message& message) noexcept {
-    return message.id() == Heartbeat::id && message.wire.crc_extra == Heartbeat::crc_extra;
+    return message.id() == msg::Heartbeat::id && message.wire.crc_extra == msg::Heartbeat::crc_extra;
 }
 
 std::string_view heartbeat_mode(ByteView payload) noexcept {
-    const auto beat = Heartbeat::decode(payload);
-    if ((beat.base_mode & MAV_MODE_FLAG_CUSTOM_MODE_ENABLED) == 0) return {};
+    const auto beat = msg::Heartbeat::decode(payload);
+    if ((beat.base_mode & msg::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED) == 0) return {};
     return mode_name(flight_modes(beat.autopilot, beat.type), beat.custom_mode);
 }
 

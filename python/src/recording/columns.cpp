@@ -53,8 +53,13 @@ void gather(const Rows& rows, const Column& column, std::uint8_t* to) {
 
 }  // namespace
 
-static_assert(std::ranges::all_of(message::px4_flight_modes,
-                                  [](const message::FlightMode& mode) { return mode.name.size() < Rows::mode_bytes; }));
+static constexpr bool modes_fit(std::span<const message::FlightMode> modes) {
+    return std::ranges::all_of(modes, [](const auto& mode) { return mode.name.size() < Rows::mode_bytes; });
+}
+static_assert(modes_fit(message::px4_flight_modes) && modes_fit(message::plane_flight_modes) &&
+              modes_fit(message::copter_flight_modes) && modes_fit(message::rover_flight_modes) &&
+              modes_fit(message::sub_flight_modes) && modes_fit(message::tracker_flight_modes) &&
+              modes_fit(message::blimp_flight_modes));
 
 void Rows::add(std::int64_t time_ns, const wire::FrameView& frame) {
     if (count_ == blocks_.size() * rows_per_block) blocks_.push_back(room_for(rows_per_block * stride_));

@@ -582,6 +582,7 @@ def test_metrics_are_what_prometheus_reads(net, run, tmp_path):
     version, = (dict(labels)["version"] for name, labels in read if name == "mavloom_build_info")
     assert version in run("--version").stdout
     assert all(f"# HELP {name} " in text for name, _ in read)
+    assert not re.findall(r"^# HELP mavloom_([a-z]+)_(\w+)_total Of each \1: \2\.$", text, re.M), "names without help"
     others = {key for key in set(read) - set(expected) if key[0] != "mavloom_build_info"}
     assert others == {key for key in read if key[0].startswith(("mavloom_message_", "mavloom_system_"))}
     assert read["mavloom_system_frames_total", frozenset({("link", "A"), ("sys", "1")})] == sum(
