@@ -240,18 +240,13 @@ void print_unknown_target(fmt::appender out, const Json& o) {
 
 std::string table_of(const std::vector<std::string>& lines) {
     using Print = void (*)(fmt::appender, const Json&);
-    static const std::map<std::string_view, Print> prints{{"router", print_program},
-                                                          {"endpoint", print_endpoint},
-                                                          {"sim", print_program},
-                                                          {"vehicle", print_vehicle},
-                                                          {"gone", print_gone},
-                                                          {"link", print_link},
-                                                          {"page", print_page},
-                                                          {"others", print_others},
-                                                          {"source", print_source},
-                                                          {"message", print_message_rate},
-                                                          {"recording", print_recording},
-                                                          {"unknown_target", print_unknown_target}};
+    static const std::map<std::string_view, Print> prints{
+        {"router", print_program},      {"endpoint", print_endpoint},
+        {"sim", print_program},         {"vehicle", print_vehicle},
+        {"gone", print_gone},           {"link", print_link},
+        {"page", print_page},           {"others", print_others},
+        {"source", print_source},       {"message", print_message_rate},
+        {"recording", print_recording}, {"unknown_target", print_unknown_target}};
     fmt::memory_buffer text;
     for (const auto& line : lines) {
         const auto object = Json::parse(line, nullptr, false);

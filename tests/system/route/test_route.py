@@ -925,8 +925,8 @@ def test_n15_a_clock_that_is_stepped_back_changes_nothing(spawn, tmp_path, progr
     step("+1h")
     copy_is_dropped_then_taken()
     far.send(heartbeat(GCS))
-    # The peer and its routes go when they are old by the clock that nobody steps. libfaketime moves the router's alarms,
-    # too, so the requests wake it.
+    # The peer and its routes go when they are old by the clock that nobody steps. libfaketime moves the alarms of the
+    # router, too, so the requests wake it.
     harness.wait_for(lambda: len(router.links()) == 1, what="the peer to go")
     harness.wait_for(lambda: not router.routes(), what="the routes to expire")
     end.close()
