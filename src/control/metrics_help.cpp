@@ -18,7 +18,7 @@ constexpr std::array helps{
     Help{"bytes_in", "bytes of the good frames that arrived"},
     Help{"frames_out", "frames that were sent"},
     Help{"bytes_out", "bytes of the frames that were sent"},
-    Help{"frames", "frames"},
+    Help{"frames", "frames of this kind, from this sender or in this file"},
     Help{"bytes", "bytes of the frames"},
     Help{"lost", "frames that the link lost, by gaps in the sequence numbers"},
     Help{"late", "frames that arrived late, by the sequence numbers"},

@@ -20,8 +20,8 @@ route::FilterTerms terms_of(std::string_view option, const endpoint::FilterTerms
 
 SetupResult<void> RoutedEndpoints::add(const endpoint::Endpoint& endpoint) {
     if (auto good = check_group(endpoint); !good) return good;
-    for (const auto& other : endpoints_)
-        if (auto good = endpoint::check_not_called(endpoint, other->endpoint); !good) return good;
+    for (const auto& existing : endpoints_)
+        if (auto good = endpoint::check_not_called(endpoint, existing->endpoint); !good) return good;
     auto policy = policy_of(endpoint);
     if (!policy) return tl::unexpected(std::move(policy.error()).within(endpoint.label()));
     const auto id = links_.add(endpoint);

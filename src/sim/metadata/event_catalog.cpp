@@ -37,7 +37,7 @@ constexpr std::array<EventArgument, 6> date_arguments{{{"arg0", "uint16_t"},
 
 constexpr std::string_view arming = "arming_check", health = "health", general = "default";
 
-constexpr EventInfo infos[] = {
+constexpr EventInfo catalog[] = {
     {event_id::arming_check_summary, log_protocol, arming, "commander_arming_check_summary",
      "Arming check summary event", arming_summary, "summary"},
     {event_id::health_summary, log_protocol, health, "commander_health_summary", "Health report summary event",
@@ -152,7 +152,7 @@ constexpr EventInfo infos[] = {
 // Values of arm_disarm_reason_t.
 constexpr std::uint8_t by_client = 4, by_mission = 5, by_landing = 6, by_inaction = 7, by_kill = 8, by_failsafe = 14;
 
-constexpr EventText texts[] = {
+constexpr EventText catalog_texts[] = {
     {"Armed by external command", 26266355, by_client},
     {"Armed by mission start", 26266355, by_mission},
     {"Disarmed by external command", 32794487, by_client},
@@ -257,14 +257,14 @@ constexpr EventEnum enums[] = {
 
 }  // namespace
 
-std::span<const EventInfo> event_infos() noexcept { return infos; }
+std::span<const EventInfo> event_infos() noexcept { return catalog; }
 
 const EventInfo* find_event(std::uint32_t id) noexcept {
-    const auto at = std::ranges::find(infos, id, &EventInfo::id);
-    return at == std::end(infos) ? nullptr : at;
+    const auto at = std::ranges::find(catalog, id, &EventInfo::id);
+    return at == std::end(catalog) ? nullptr : at;
 }
 
-std::span<const EventText> event_texts() noexcept { return texts; }
+std::span<const EventText> event_texts() noexcept { return catalog_texts; }
 
 std::span<const NavigationGroup> navigation_groups() noexcept { return groups; }
 

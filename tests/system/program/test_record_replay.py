@@ -237,7 +237,7 @@ def test_a_file_that_goes_is_reported_and_a_new_one_begins(spawn, udp_socket, tm
         first.write_bytes(b"")
     process.wait_output(f"{first} was removed or replaced; a new file begins", stream="err")
     wait_for(recorded(frames.attitude(2)), what="the second frame in a new file")
-    assert (tmp_path / "x.tlog.1").exists() == (how == "replaced")
+    assert (tmp_path / "x_2.tlog").exists() == (how == "replaced")
     assert process.stop().status == 130
 
 

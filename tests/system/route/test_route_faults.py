@@ -544,7 +544,7 @@ def test_a_recording_whose_file_goes_begins_a_new_one(pair, tmp_path, how):
     harness.wait_for(lambda: any(last == frame for path in tmp_path.glob("*.tlog")
                                  for _, frame in frames.read_tlog(path)), what="the frame in the new file")
 
-    assert (tmp_path / "flight.tlog.1").exists() == (how == "replaced")
+    assert (tmp_path / "flight_2.tlog").exists() == (how == "replaced")
     assert tape.counters()["write_error"] == 0
 
 

@@ -20,7 +20,7 @@ constexpr MonoTime start{1000s};
 
 endpoint::Endpoint parsed(std::string_view url) { return *endpoint::parse_endpoint(url); }
 
-struct Silence : testing::Test {
+struct Silence : ::testing::Test {
     // How many reports the looks of so many seconds bring.
     std::size_t reports(Nanoseconds from, int seconds) {
         std::size_t count = 0;
