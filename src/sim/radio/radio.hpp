@@ -66,9 +66,8 @@ public:
     void set_silent(bool silent) noexcept { silent_ = silent; }
 
 private:
-    // Bulk transfers pause while a link's queue holds this much: at 57,600 baud, telemetry behind it waits for 0.4 s,
-    // which is less than the 1 s after which it is dropped.
-    static constexpr std::size_t bulk_bytes = 2048;
+    // Bulk transfers pause while a link's queue holds this much.
+    static constexpr std::size_t bulk_bytes = 4096;
 
     struct Outlet {
         std::array<std::uint8_t, 256> sequences{};  // by component
