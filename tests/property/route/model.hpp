@@ -534,7 +534,11 @@ private:
             std::uint64_t{frame.system().value} << 40 | std::uint64_t{frame.component().value} << 32 | frame.id().value,
             is_verified_};
         const auto due = link.due.find(key);
-        if (interval && due != link.due.end() && now_ < due->second) return Reason::rate_limited;
+        // Early by less than half an interval, at least 50 ms and at most 0.5 s, passes (docs/guide/queues.md).
+        const Nanoseconds grace = interval ? std::clamp<Nanoseconds>(*interval / 2, std::chrono::milliseconds{50},
+                                                                     std::chrono::milliseconds{500})
+                                           : Nanoseconds{};
+        if (interval && due != link.due.end() && due->second - now_ >= grace) return Reason::rate_limited;
         if (link.policy.bytes_per_s) {
             const auto rate = static_cast<double>(*link.policy.bytes_per_s);
             for (double* tokens : {&link.tokens, &link.verified_tokens})
@@ -549,7 +553,8 @@ private:
             if (is_verified_) link.verified_tokens = std::max(link.verified_tokens - size, -rate);
         }
         if (interval) {
-            const bool in_step = due != link.due.end() && now_ - due->second < *interval;
+            const bool in_step = due != link.due.end() &&
+                                 now_ - due->second < std::max<Nanoseconds>(*interval, std::chrono::milliseconds{100});
             link.due[key] = (in_step ? due->second : now_) + *interval;
         }
         return otherwise;
