@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Runs the benchmarks behind docs/performance.md, one after another: ./run bench
-[parse|decode|python|listen|inside|shm|sim|pipeline|route ...]. Most of them compare Mavloom with another program. If
-one benchmark is named, options that this script does not know are passed to it: ./run bench route --quick"""
+[parse|decode|python|listen|inside|shm|sim|pipeline|route|websocket|hostile|web|page ...]. Most of them compare
+Mavloom with another program. If one benchmark is named, options that this script does not know are passed to it:
+./run bench route --quick"""
 import argparse
 import pathlib
 import platform
@@ -26,6 +27,10 @@ def commands(program, build):
                 [sys.executable, HERE / "sim.py", "--program", program, "--tools", folder]],
         "pipeline": [[sys.executable, HERE / "pipeline.py", "--program", program, "--tools", folder]],
         "route": [[sys.executable, HERE / "route.py", "--program", program, "--tools", folder]],
+        "websocket": [[sys.executable, HERE / "websocket.py", "--program", program, "--tools", folder]],
+        "web": [[sys.executable, HERE / "web.py", "--program", program]],
+        "page": [[sys.executable, HERE / "page.py", "--program", program]],
+        "hostile": [[sys.executable, HERE / "hostile.py", "--program", program, "--tools", folder]],
     }
 
 

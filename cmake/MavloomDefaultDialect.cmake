@@ -24,7 +24,11 @@ target_include_directories(mavloom_dialectgen PRIVATE "${PROJECT_SOURCE_DIR}/src
 target_link_libraries(mavloom_dialectgen PRIVATE mavloom_dialect_core $<BUILD_INTERFACE:mavloom_warnings>)
 
 set(generated "${PROJECT_BINARY_DIR}/generated")
-_mavloom_generate_dialect("${PROJECT_SOURCE_DIR}/dialects/all.xml" mavloom::msg "${generated}" --builtin)
+set(options --builtin)
+if(MAVLOOM_MINIMAL)
+  list(APPEND options --lean)
+endif()
+_mavloom_generate_dialect("${PROJECT_SOURCE_DIR}/dialects/all.xml" mavloom::msg "${generated}" "${options}")
 add_library(mavloom_dialect_builtin ${tables} "${PROJECT_SOURCE_DIR}/src/dialect/builtin/load.cpp")
 add_library(mavloom::dialect_builtin ALIAS mavloom_dialect_builtin)
 set_target_properties(mavloom_dialect_builtin PROPERTIES EXPORT_NAME dialect_builtin

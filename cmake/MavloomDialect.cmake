@@ -4,7 +4,8 @@
 # `acme/msg/enums/mav_type.hpp` an enum, `acme/msg/dialect.hpp` the function `acme::msg::dialect()`. NAMESPACE defaults
 # to `<name of the file>::msg`. Works in this tree and behind find_package(mavloom). An included file that does not
 # exist is taken from Mavloom's public definitions, if it is one of these. A change of the file, or of one that it
-# includes, builds again what depends on it.
+# includes, builds again what depends on it. If you compile for another processor, set MAVLOOM_DIALECTGEN to the path of
+# a mavloom_dialectgen that runs on this one.
 
 # The folder of the public definitions: in this tree, or where they are installed (mavloomConfig.cmake). A property,
 # because functions also run in scopes that do not see the variables of this file.
@@ -74,14 +75,20 @@ function(_mavloom_generate_dialect xml namespace out options)
   if("--builtin" IN_LIST options)
     list(APPEND tables "${out}/tables/files.cpp")
   endif()
-  set(generate "$<TARGET_FILE:mavloom::dialectgen>" "${xml}" --out "${out}" --namespace "${namespace}"
+  set(generator mavloom::dialectgen)
+  set(program "$<TARGET_FILE:mavloom::dialectgen>")
+  if(MAVLOOM_DIALECTGEN)
+    set(generator "${MAVLOOM_DIALECTGEN}")
+    set(program "${MAVLOOM_DIALECTGEN}")
+  endif()
+  set(generate "${program}" "${xml}" --out "${out}" --namespace "${namespace}"
                --public "${public_folder}" ${options})
   get_filename_component(name "${xml}" NAME)
   add_custom_command(OUTPUT ${tables} BYPRODUCTS "${out}/tables/tables.hpp" COMMAND ${generate} --part tables
-                     DEPENDS ${files} mavloom::dialectgen COMMENT "Tables of ${name}" VERBATIM)
+                     DEPENDS ${files} ${generator} COMMENT "Tables of ${name}" VERBATIM)
   add_custom_command(OUTPUT "${out}/headers.stamp" BYPRODUCTS ${headers}
                      COMMAND ${generate} --part headers --stamp "${out}/headers.stamp"
-                     DEPENDS ${files} mavloom::dialectgen COMMENT "Message structs of ${name}" VERBATIM)
+                     DEPENDS ${files} ${generator} COMMENT "Message structs of ${name}" VERBATIM)
   set(tables "${tables}" PARENT_SCOPE)
   set(headers_stamp "${out}/headers.stamp" PARENT_SCOPE)
 endfunction()

@@ -36,12 +36,23 @@ target_compile_options(mavloom_warnings INTERFACE -Wall -Wextra -Wpedantic -Wcon
 # One library per module: `mavloom_<name>`, alias `mavloom::<name>`, from src/<name>/*.cpp and include/mavloom/<name>/.
 # A module without sources is an interface library. COLD: sources (names without .cpp) to compile with
 # mavloom_cold_flags. NO_SOURCES: the sources belong to other targets, which the caller links.
+# With MAVLOOM_MINIMAL, src/<name>/minimal/ replaces the other sources, if there is such a folder.
 function(mavloom_module name)
   cmake_parse_arguments(arg "NO_SOURCES" "" "DEPENDS;LINK;PRIVATE_LINK;COLD" ${ARGN})
+  if(name IN_LIST mavloom_modules_left_out)
+    return()
+  endif()
   set(target mavloom_${name})
   set(sources "")
   if(NOT arg_NO_SOURCES)
     file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${name}/*.cpp")
+    set(minimal_sources ${sources})
+    list(FILTER minimal_sources INCLUDE REGEX "/minimal/")
+    list(FILTER sources EXCLUDE REGEX "/minimal/")
+    if(MAVLOOM_MINIMAL AND minimal_sources)
+      set(sources ${minimal_sources})
+      set(arg_COLD "")
+    endif()
   endif()
   set(scope PUBLIC)
   if(NOT sources)

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: MIT
 """check_text.py [FILE...]: checks the text that clang-format does not see, in the files given or in all that git knows.
 
-- Lines of Python, shell, CMake and Markdown, and C++ lines with a comment, have at most 120 characters. Exempt are
-  lines without a space inside (a URL, hex data), and in Markdown tables, code blocks and lines that are one link.
+- Lines of Python, shell, CMake and Markdown, and C++ and TypeScript lines with a comment, have at most 120 characters.
+  Exempt are lines without a space inside (a URL, hex data), and in Markdown tables, code blocks and lines that are one
+  link.
 - Comments, docstrings, Markdown prose and names of tests use the words of CONTRIBUTING.md, section "Plain English".
   Code in backquotes is not checked.
 
@@ -67,8 +68,9 @@ class Paragraph(NamedTuple):
 
 
 def kind_of(path: pathlib.Path) -> str | None:
-    """Returns the kind of a file: python, shell, cmake, markdown or cpp; None for files that are not checked."""
-    by_suffix = {".py": "python", ".sh": "shell", ".md": "markdown", ".cpp": "cpp", ".hpp": "cpp", ".cmake": "cmake"}
+    """Returns the kind of a file: python, shell, cmake, markdown or cpp, also for TypeScript; None if not checked."""
+    by_suffix = {".py": "python", ".sh": "shell", ".md": "markdown", ".cpp": "cpp", ".hpp": "cpp", ".cmake": "cmake",
+                 ".ts": "cpp", ".tsx": "cpp", ".mjs": "cpp"}
     if path.name == "CMakeLists.txt":
         return "cmake"
     if path.suffix:

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""A demonstration on one machine, over real UDP sockets:
+"""`./run demo --recorded`: a demonstration on one machine, over real UDP sockets:
 
     recorded PX4 flight --replay--> +--> mavloom listen   (decoded, shown here)
                                     +--> mavloom relay    (decoded, re-encoded) --> ground-station port (recorded)

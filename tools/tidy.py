@@ -49,12 +49,15 @@ def options_of(entry: dict[str, str]) -> list[str]:
 
 
 def groups_of(entries: list[dict[str, str]]) -> list[list[dict[str, str]]]:
-    """Groups of up to FILES_A_UNIT sources from one folder of TOPS, or generated."""
-    by_top: dict[str, list[dict[str, str]]] = {}
+    """Groups of up to FILES_A_UNIT sources from one folder of TOPS, or generated, or that include ncurses: its headers
+    define macros such as `columns`."""
+    groups: dict[str, list[dict[str, str]]] = {}
     for entry in entries:
-        top = next((top for top in TOPS if entry["file"].startswith(f"{ROOT / top}/")), "generated")
-        by_top.setdefault(top, []).append(entry)
-    return [group[at:at + FILES_A_UNIT] for group in by_top.values() for at in range(0, len(group), FILES_A_UNIT)]
+        name = next((top for top in TOPS if entry["file"].startswith(f"{ROOT / top}/")), "generated")
+        if "#include <ncurses.h>" in pathlib.Path(entry["file"]).read_text():
+            name = "ncurses"
+        groups.setdefault(name, []).append(entry)
+    return [group[at:at + FILES_A_UNIT] for group in groups.values() for at in range(0, len(group), FILES_A_UNIT)]
 
 
 def unite(group: list[dict[str, str]], path: pathlib.Path) -> dict[str, str]:

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "manual/declared.hpp"
+
 namespace CLI {  // NOLINT(readability-identifier-naming): CLI11's name
 class App;
 class Option;
@@ -60,6 +62,9 @@ public:
     [[nodiscard]] bool parsed() const;
 
     void footer(const std::string& text);
+
+    // Returns the declarations of the whole program. Call it after all commands are declared.
+    [[nodiscard]] DeclaredCommand program() const;
 
 private:
     CLI::App* command_;

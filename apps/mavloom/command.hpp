@@ -49,6 +49,10 @@ struct Command {
 
 Run declare_route(Arguments, const Common&);
 Run declare_sim(Arguments, const Common&);
+Run declare_web(Arguments, const Common&);
+Run declare_top(Arguments, const Common&);
+Run declare_doctor(Arguments, const Common&);
+Run declare_demo(Arguments, const Common&);
 Run declare_ctl(Arguments, const Common&);
 Run declare_stat(Arguments, const Common&);
 Run declare_key(Arguments, const Common&);
@@ -56,10 +60,13 @@ Run declare_listen(Arguments, const Common&);
 Run declare_relay(Arguments, const Common&);
 Run declare_record(Arguments, const Common&);
 Run declare_replay(Arguments, const Common&);
+Run declare_info(Arguments, const Common&);
 Run declare_dialect(Arguments, const Common&);
 Run declare_check(Arguments, const Common&);
 Run declare_shm(Arguments, const Common&);
 Run declare_bench(Arguments, const Common&);
+Run declare_manual(Arguments, const Common&);
+Run declare_completion(Arguments, const Common&);
 
 // Prints "mavloom: TEXT" to stderr and returns the exit status for the error.
 Exit fail(const SetupError& error);
@@ -76,7 +83,7 @@ void keep_standard_descriptors() noexcept;
 // Prints "mavloom: TEXT" to stderr, unless --quiet.
 void print_notice(const Common& common, std::string_view text);
 // Prints "mavloom: 2026-11-28 12:34:56 TEXT" to stderr, in local time, unless --quiet. The journal keeps the time
-// itself, so there the line has none. For what a router or simulator reports while it runs.
+// itself, so there the line has none. For what a command reports while it runs, not at its start or end.
 void print_event(const Common& common, std::string_view text);
 
 // Returns the built-in definitions with those of every --dialect file added.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a router or simulator reports while it runs.
+// What a command reports while it runs.
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>

@@ -20,6 +20,9 @@
 #include "mavloom/base/version.hpp"
 #include "mavloom/endpoint/endpoint.hpp"
 #include "signals.hpp"
+#ifndef MAVLOOM_MINIMAL
+#include "mavloom/ws/transport.hpp"
+#endif
 
 namespace mavloom::app {
 
@@ -27,26 +30,43 @@ namespace {
 
 constexpr std::array commands{
     Command{"route", "forward frames unchanged between any number of links", declare_route, true, true},
+#ifndef MAVLOOM_MINIMAL
     Command{"listen", "decode and print every message that arrives", declare_listen},
     Command{"relay", "decode frames, optionally edit them, re-encode and forward them", declare_relay, true, true},
     Command{"record", "write received frames to a .tlog file", declare_record},
     Command{"replay", "send a recording at its own pace", declare_replay},
+    Command{"info", "summarize recordings: vehicles, modes, distance, battery, warnings, losses", declare_info},
     Command{"sim", "simulate vehicles that ground stations take for real", declare_sim},
+    Command{"web", "show live telemetry to viewers (Foxglove, Lichtblick, PlotJuggler) and curl", declare_web, true,
+            true},
+    Command{"top", "show vehicles, messages, links and alarms in the terminal, live", declare_top},
+    Command{"doctor", "say what is wrong with links or recordings, where, why, and what to do", declare_doctor},
+    Command{"demo", "run the whole system on this machine: vehicle, router, Python, relay, page", declare_demo, true,
+            true},
+#endif
     Command{"ctl", "inspect and command a running router or simulator", declare_ctl, false},
     Command{"stat", "print the counters of a running router, simulator or ring", declare_stat, false},
+#ifndef MAVLOOM_MINIMAL
     Command{"shm", "manage shared-memory rings: list, stat, write, read, remove", declare_shm, false},
     Command{"key", "make signing keys", declare_key, false},
     Command{"dialect", "look up and check message definitions", declare_dialect},
     Command{"check", "validate a configuration or scenario file", declare_check},
     Command{"bench", "measure Mavloom's throughput on this machine", declare_bench},
+    Command{"manual", "print the command reference as a manual page or Markdown", declare_manual, false},
+    Command{"completion", "print what a shell needs to complete Mavloom's command lines", declare_completion, false},
+#endif
 };
 
-constexpr std::string_view footer =
-    "Endpoints: udpin://HOST:PORT udpout://HOST:PORT tcpin://HOST:PORT tcpout://HOST:PORT tlog://PATH "
-    "(docs/guide/endpoints.md)\n"
-    "Example:   mavloom listen udpin://0.0.0.0:14550 --stats\n"
+constexpr std::string_view rest_of_footer =
+    "\nExample: mavloom listen udpin://0.0.0.0:14550 --stats\n"
     "Exit status: 0 done, 1 failed, 2 wrong use, 3 bad input file, 4 loss or mismatch found, 130/143 ended by a "
     "signal.";
+
+std::string footer() {
+    std::string text = "Endpoints (docs/guide/endpoints.md):\n";
+    for (const auto& row : endpoint::scheme_rows) text += fmt::format("  {:<28}{}\n", endpoint::form_of(row), row.help);
+    return text.append(rest_of_footer);
+}
 
 void add_common(CLI::App& sub, Common& common, const Command& command) {
     auto* const verbose = sub.add_flag("-v,--verbose", common.verbose, "log more to stderr");
@@ -79,32 +99,51 @@ void refuse_empty_values(CLI::App& command) {
     for (auto* sub : command.get_subcommands([](const CLI::App*) { return true; })) refuse_empty_values(*sub);
 }
 
-// "mavloom replay flight.tlog udpout://..." lacks the option of its destination.
-std::string destination_hint(const std::string& word, const CLI::App& command) {
-    const auto* const to = command.get_option_no_throw("--to");
-    return to != nullptr && endpoint::parse_endpoint(word) ? fmt::format("; to send there, type --to {}", shown(word))
-                                                           : std::string();
+// Returns the word that lacks "--to" in "mavloom replay flight.tlog udpout://...": one that is not expected, or the
+// last of several sources of relay. Null if there is none.
+const std::string* destination_without_option(const CLI::ParseError& error, const CLI::App& command,
+                                              const std::vector<std::string>& left) {
+    if (command.get_option_no_throw("--to") == nullptr) return nullptr;
+    const auto* const sources = command.get_option_no_throw("source");
+    const bool is_missing = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+    const std::string* word = left.empty() ? nullptr : &left.front();
+    if (is_missing && sources != nullptr && sources->count() > 1) word = &sources->results().back();
+    return word != nullptr && endpoint::parse_endpoint(*word) ? word : nullptr;
 }
 
-// Returns CLI11's error text. For an unknown option or subcommand, suggests the nearest spelling.
-std::string explain(const CLI::ParseError& error, const CLI::App& app) {
-    const CLI::App* command = &app;
-    while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
-    const auto left = app.remaining(true);
-    if (left.empty()) return error.what();
+// For example "; to send to udpout://..., type mavloom replay flight.tlog --to udpout://...".
+std::string destination_hint(std::span<const std::string> words, const std::string& destination) {
+    std::string line = "mavloom";
+    for (const auto& word : words.subspan(1))
+        line += fmt::format(" {}{}", word == destination ? "--to " : "", shown(word));
+    return fmt::format("; to send to {}, type {}", shown(destination), line);
+}
+
+// The options and subcommands of a command, and the options of its parents, which it also takes.
+std::vector<std::string> known_words(const CLI::App& command, const CLI::App& app) {
     std::vector<std::string> known;
-    const CLI::App* at = command;  // and its parents: a subcommand also takes its command's options
+    const CLI::App* at = &command;
     do {
         for (const auto* option : at->get_options())
             for (const auto& name : option->get_lnames()) known.push_back("--" + name);
         at = at->get_parent();
     } while (at != nullptr && at != &app);
-    for (const auto* sub : command->get_subcommands([](const CLI::App*) { return true; }))
+    for (const auto* sub : command.get_subcommands([](const CLI::App*) { return true; }))
         known.push_back(sub->get_name());
-    const std::vector<std::string_view> names(known.begin(), known.end());
-    auto hint = destination_hint(left.front(), *command);
-    if (hint.empty()) hint = did_you_mean(left.front(), names);
-    return fmt::format("{} is not expected here{}", in_quotes(left.front()), hint);
+    return known;
+}
+
+// Returns CLI11's error text. For an unknown option or subcommand, suggests the nearest spelling.
+std::string explain(const CLI::ParseError& error, const CLI::App& app, std::span<const std::string> words) {
+    const CLI::App* command = &app;
+    while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+    const auto left = app.remaining(true);
+    const auto what = left.empty() ? std::string(error.what())
+                                   : fmt::format("{} is not expected here", in_quotes(left.front()));
+    if (const auto* to = destination_without_option(error, *command, left)) return what + destination_hint(words, *to);
+    if (left.empty()) return what;
+    const auto known = known_words(*command, app);
+    return what + did_you_mean(left.front(), std::vector<std::string_view>(known.begin(), known.end()));
 }
 
 bool is_command(std::string_view word) {
@@ -149,7 +188,7 @@ Exit run(std::span<const std::string> words) {
 
     Common common;
     CLI::App app{"Moves, shows, re-encodes and records MAVLink telemetry, and simulates vehicles.", "mavloom"};
-    app.footer(std::string(footer));
+    app.footer(footer());
     app.require_subcommand(1);
     app.add_flag("--version")->description("print the version");
     std::vector<std::pair<CLI::App*, Run>> runs;
@@ -165,7 +204,7 @@ Exit run(std::span<const std::string> words) {
         app.exit(help);
         return Exit::done;
     } catch (const CLI::ParseError& error) {
-        return wrong_use(explain(error, app), is_command(first) ? first : "");
+        return wrong_use(explain(error, app, words), is_command(first) ? first : "");
     }
     for (const auto& [sub, run_command] : runs)
         if (sub->parsed()) return run_command();
@@ -257,6 +296,9 @@ int main(int argc, char** argv) {
     mavloom::app::Signals::survive_lost_rings();
     mavloom::app::keep_standard_descriptors();
     mavloom::app::allow_many_descriptors();
+#ifndef MAVLOOM_MINIMAL
+    mavloom::ws::register_transports();
+#endif
     const auto status = mavloom::app::run(mavloom::app::words_of(argc, argv));
     if (std::fflush(stdout) != 0 && status == mavloom::app::Exit::done && errno != EPIPE)
         return static_cast<int>(

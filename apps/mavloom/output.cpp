@@ -2,6 +2,7 @@
 #include "output.hpp"
 
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <sys/uio.h>
 #include <unistd.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <climits>
+#include <cstdlib>
 
 #include "signals.hpp"
 
@@ -19,14 +21,14 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto longest_stall = 10s, longest_stall_after_signal = 1s;
-constexpr int look_for_signals_ms = 100;
+constexpr int signal_poll_ms = 100;
 
 }  // namespace
 
 bool Output::wait_for_room() {
     for (;;) {
         pollfd out{STDOUT_FILENO, POLLOUT, 0};
-        if (::poll(&out, 1, look_for_signals_ms) == 1) return true;
+        if (::poll(&out, 1, signal_poll_ms) == 1) return true;
         const auto now = mono_now();
         if (!Signals::received() && now < end_) continue;
         if (!stalled_since_) stalled_since_ = now;
@@ -114,6 +116,20 @@ Output::State Output::flush_what_fits() {
     std::copy(buffer_.data() + done, buffer_.data() + buffer_.size(), buffer_.data());
     buffer_.resize(buffer_.size() - done);
     return state_;
+}
+
+int width_of_output(int otherwise) {
+    constexpr int least = 40, most = 400;
+    winsize size{};
+    if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col != 0) return size.ws_col;
+    const char* const columns = std::getenv("COLUMNS");
+    const int width = columns == nullptr ? 0 : std::atoi(columns);
+    return width == 0 ? otherwise : std::clamp(width, least, most);
+}
+
+bool wants_color() {
+    const char* const value = std::getenv("NO_COLOR");
+    return value == nullptr || *value == '\0';
 }
 
 Exit print_at_end(std::string_view text, Exit otherwise) {

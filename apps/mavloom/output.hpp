@@ -60,6 +60,11 @@ private:
     std::uint64_t lost_lines_ = 0;
 };
 
+// The columns of the terminal, else those that COLUMNS gives, else `otherwise`.
+[[nodiscard]] int width_of_output(int otherwise);
+// False if NO_COLOR is set (https://no-color.org).
+[[nodiscard]] bool wants_color();
+
 // Prints the last text of a command. Returns `otherwise`, or an error status if printing fails.
 [[nodiscard]] Exit print_at_end(std::string_view text, Exit otherwise);
 

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <csignal>
 
+#include "mavloom/base/clock.hpp"
 #include "mavloom/shm/lost_mapping.hpp"
 
 namespace mavloom::app {
@@ -19,12 +20,27 @@ std::atomic<void*> stop_context{nullptr};
 std::atomic<bool> hangup_is_remembered{false};
 std::atomic<bool> hangup{false};
 std::atomic<bool> has_begun{false};  // a Signals object exists or existed
+std::atomic<Nanoseconds::rep> received_at{0};
+std::atomic<int> requests{0}, tolerated_requests{1};
+
+// Wrappers, and the kernel at the death of a parent with several threads, may send the same request several times.
+constexpr Nanoseconds same_request = std::chrono::milliseconds(200);
+
+// Notes the request to end. Returns how many there were.
+int note_request(int signal) {
+    const auto now = mono_now().time_since_epoch();
+    auto last = received_at.load();
+    const bool is_new = last == 0 || now - Nanoseconds(last) >= same_request;
+    if (is_new && received_at.compare_exchange_strong(last, now.count())) ++requests;
+    received_signal = signal;
+    return requests;
+}
 
 void handle(int signal) {
     const int saved_errno = errno;
     if (signal == SIGHUP && hangup_is_remembered) {
         hangup = true;
-    } else if (received_signal.exchange(signal) != 0 || !has_begun) {
+    } else if (note_request(signal) > tolerated_requests || !has_begun) {
         ::_exit(128 + signal);
     }
     if (const auto stop = stop_function.load()) stop(stop_context.load());
@@ -48,7 +64,8 @@ void install(void (*handler)(int), Ignored ignored) noexcept {
 
 }  // namespace
 
-Signals::Signals(OnStop on_stop, void* context, OnHangup on_hangup) {
+Signals::Signals(OnStop on_stop, void* context, OnHangup on_hangup, OnRepeat on_repeat) {
+    tolerated_requests = on_repeat == OnRepeat::hurry ? 2 : 1;
     hangup_is_remembered = on_hangup == OnHangup::remember;
     stop_context = context;
     stop_function = on_stop;
@@ -75,6 +92,8 @@ Signals::~Signals() { stop_function = nullptr; }
 bool Signals::take_hangup() noexcept { return hangup.exchange(false); }
 
 bool Signals::received() noexcept { return received_signal.load() != 0; }
+
+bool Signals::repeated() noexcept { return requests.load() > 1; }
 
 Exit Signals::status(Exit otherwise) noexcept {
     switch (received_signal.load()) {

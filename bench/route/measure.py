@@ -81,10 +81,10 @@ def dropped_by(sock):
     return struct.unpack("9I", sock.getsockopt(socket.SOL_SOCKET, SO_MEMINFO, 36))[MEMINFO_DROPS]
 
 
-def cpu_seconds(pid):
-    """Returns the CPU time of all threads of a process, user and system."""
+def cpu_seconds(pids):
+    """Returns the CPU time of all threads of the processes, user and system."""
     return sum(int((task / "schedstat").read_text().split()[0])
-               for task in pathlib.Path(f"/proc/{pid}/task").iterdir()) / 1e9
+               for pid in pids for task in pathlib.Path(f"/proc/{pid}/task").iterdir()) / 1e9
 
 
 def anonymous_kib(pid):
@@ -134,24 +134,25 @@ def start(command, sockets=(), **options):
     return subprocess.Popen([str(part) for part in command], pass_fds=[sock.fileno() for sock in sockets], **options)
 
 
-def run_load(kit, load, rate, seconds, pid, senders, receivers):
-    """Runs the load through the running router `pid`. Returns what was sent, what arrived, and the router's cost."""
+def run_load(kit, load, rate, seconds, pids, senders, receivers):
+    """Runs the load through the running router, the first of `pids`. Returns what was sent, what arrived, and the cost
+    of all `pids`."""
     frames = int(rate * seconds)
     shape = [kit.flight, load.systems, load.components]
     mode = "fan" if load.outs else "mesh"
     with start([kit.tools / "route_sink", descriptors(receivers), *shape, frames, mode, load.sink_rest_us], receivers,
                stdin=subprocess.PIPE, stdout=subprocess.PIPE) as sink:
         sink.stdout.readline()
-        dropped, cpu = sum(map(dropped_by, receivers)), cpu_seconds(pid)
+        dropped, cpu = sum(map(dropped_by, receivers)), cpu_seconds(pids)
         with start([kit.tools / "route_generator", descriptors(senders), *shape, rate, frames, load.per_datagram,
                     load.tick_us], senders,
                    stdout=subprocess.PIPE) as generator:
             time.sleep(seconds / 4)
-            early_kib = anonymous_kib(pid)
+            early_kib = anonymous_kib(pids[0])
             sent = json.loads(generator.stdout.read())
         sink.stdin.close()
         arrived = json.loads(sink.stdout.read())
-        cpu = cpu_seconds(pid) - cpu
+        cpu = cpu_seconds(pids) - cpu
         dropped = sum(map(dropped_by, receivers)) - dropped
     return sent, arrived, cpu, dropped, early_kib
 
@@ -191,7 +192,8 @@ def measure(kit, peer, load, seconds, rate=None):
             beside = [start(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=log)
                       for command in peer.beside()]
             wait_until_up(router, senders, receivers)
-            measured = run_load(kit, load, rate, seconds, router.pid, senders, receivers)
+            pids = [router.pid, *(process.pid for process in beside if peer.counts_beside)]
+            measured = run_load(kit, load, rate, seconds, pids, senders, receivers)
             if router.poll() is not None:
                 raise NoAnswer(f"ended with {router.returncode} under the load")
             return {"load": load.key, "peer": peer.name, "asked_rate": rate, "seconds": seconds,

@@ -21,6 +21,7 @@ class Peer:
     """A router. command() returns the argv of a process that reads UDP datagrams at in_port and forwards them to
     each of out_ports."""
     note = ""
+    counts_beside = False  # whether CPU includes the programs beside
 
     def __init__(self, name):
         self.name = name

@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
                     .processes = std::string_view(argv[3]) == "processes",
                     .records = count,
                     .before = std::min<std::uint64_t>(1'000'000, count)};
-    if (plan.readers < 1 || plan.readers > most_readers) return 2;
+    if (plan.readers < 1 || plan.readers > max_readers) return 2;
     if (argc == 5) return run(argv[1], NumberedRecords(), plan);
     const auto frames = frames_of(argv[5]);
     return run(argv[1], RecordedFrames({frames.begin(), frames.end()}, argc > 6), plan);

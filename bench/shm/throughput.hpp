@@ -25,7 +25,7 @@
 
 namespace mavloom::bench {
 
-inline constexpr unsigned most_readers = 3;
+inline constexpr unsigned max_readers = 3;
 
 struct Plan {
     unsigned readers = 1;
@@ -40,7 +40,7 @@ struct Shared {
         std::atomic<std::uint64_t> taken{0};
         std::atomic<bool> ready{false};
     };
-    std::array<Reader, most_readers> readers;
+    std::array<Reader, max_readers> readers;
     unsigned count = 0;
 
     [[nodiscard]] std::uint64_t slowest() const noexcept {

@@ -56,7 +56,7 @@ public:
             int got = 0;
             socklen_t size_of_got = sizeof got;
             ::getsockopt(in, SOL_SOCKET, SO_RCVBUF, &got, &size_of_got);
-            most_on_the_way_ = static_cast<std::uint64_t>(got) / counted;
+            max_in_flight_ = static_cast<std::uint64_t>(got) / counted;
             in_.push_back(in);
             out_.push_back(out);
         }
@@ -65,7 +65,7 @@ public:
     class Writer {
     public:
         Writer(const std::vector<int>& sockets, std::uint64_t most)
-            : sockets_(sockets), most_on_the_way_(most), batch_(std::make_unique<Batch>()) {}
+            : sockets_(sockets), max_in_flight_(most), batch_(std::make_unique<Batch>()) {}
         template <class Shared>
         void write(const Shared& shared, ByteView record) {
             std::memcpy(batch_->bytes[filled_].data(), record.data(), record.size());
@@ -74,7 +74,7 @@ public:
         }
         template <class Shared>
         void flush(const Shared& shared) {
-            while (sent_ + filled_ - shared.slowest() > most_on_the_way_) ::sched_yield();
+            while (sent_ + filled_ - shared.slowest() > max_in_flight_) ::sched_yield();
             for (const int socket : sockets_) send_all(socket);
             sent_ += filled_;
             filled_ = 0;
@@ -89,7 +89,7 @@ public:
             }
         }
         const std::vector<int>& sockets_;
-        std::uint64_t most_on_the_way_;
+        std::uint64_t max_in_flight_;
         std::unique_ptr<Batch> batch_;
         std::uint64_t sent_ = 0;
         unsigned filled_ = 0;
@@ -109,12 +109,12 @@ public:
         std::unique_ptr<Batch> batch_;
     };
 
-    [[nodiscard]] Writer writer() const { return {out_, most_on_the_way_}; }
+    [[nodiscard]] Writer writer() const { return {out_, max_in_flight_}; }
     [[nodiscard]] Reader reader(unsigned number) const { return Reader(in_[number]); }
 
 private:
     std::vector<int> in_, out_;
-    std::uint64_t most_on_the_way_ = 0;
+    std::uint64_t max_in_flight_ = 0;
 };
 
 }  // namespace mavloom::bench

@@ -13,8 +13,8 @@ import typing as _typing
 from . import _errors, _hints, _signatures, enums, messages
 from ._columns import Columns, columns, tables
 from ._core import (Dialect, FieldInfo, Header, LinkRecorder, LinkStats, Message, MessageInfo, Parser, Record,
-                    RecordBatch, Recording, RecordingStats, RecordingWriter, RingClaim, RingReader, RingWriter,
-                    SourceStats, Subscription, remove_ring, rings, stop_all, version)
+                    RecordBatch, Recording, RecordingStats, RecordingSummary, RecordingWriter, RingClaim, RingReader,
+                    RingWriter, SenderSummary, SourceStats, Subscription, remove_ring, rings, stop_all, version)
 from ._errors import (ClosedError, CommandError, Error, InputError, MissionError, NotFoundError, ParameterError,
                       PermissionDeniedError, SystemFailure, UsageError)
 from ._link import Link, connect
@@ -40,7 +40,7 @@ __all__ = [
     "AsyncVehicle", "ClosedError", "Columns", "CommandError", "Dialect", "Error", "FieldInfo", "Header", "InputError",
     "Link", "LinkRecorder", "LinkStats", "Message", "MessageInfo", "MissionError", "MissionItem", "NotFoundError",
     "ParameterError", "Parser", "PermissionDeniedError", "Record", "RecordBatch", "Recording", "RecordingStats",
-    "RecordingWriter", "RingClaim", "RingReader", "RingWriter", "SourceStats", "Subscription", "SystemFailure",
-    "UsageError", "Vehicle", "__version__", "columns", "connect", "enums", "messages", "read", "remove_ring", "rings",
-    "tables", "write",
+    "RecordingSummary", "RecordingWriter", "RingClaim", "RingReader", "RingWriter", "SenderSummary", "SourceStats",
+    "Subscription", "SystemFailure", "UsageError", "Vehicle", "__version__", "columns", "connect", "enums", "messages",
+    "read", "remove_ring", "rings", "tables", "write",
 ]

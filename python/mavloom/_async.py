@@ -16,8 +16,8 @@ from ._errors import ClosedError, UsageError
 
 T = TypeVar("T")
 
-MOST_AT_ONCE = 256  # messages or records before other tasks on the loop get their turn
-LOOK_FOR_RING_S = 1.0  # deleting a ring's file by hand wakes no reader, so check at this interval
+MAX_AT_ONCE = 256  # messages or records before other tasks on the loop get their turn
+RING_POLL_S = 1.0  # deleting a ring's file by hand wakes no reader, so check at this interval
 
 waiting: set[int] = set()  # descriptors on which a task waits now
 os.register_at_fork(after_in_child=waiting.clear)
@@ -30,20 +30,20 @@ def messages(subscription: Subscription) -> AsyncGenerator[Message, None]:
 
 def records(reader: RingReader) -> AsyncGenerator[Record, None]:
     """Yields records until the ring is removed or the reader is closed."""
-    return each(reader, reader.poll, look_again_s=LOOK_FOR_RING_S)
+    return each(reader, reader.poll, poll_s=RING_POLL_S)
 
 
 def batches(source: RecordBatches, timeout: float | None) -> AsyncGenerator[RecordBatch, None]:
     """Like `records`, but yields batches, and also ends if no record arrives for `timeout` seconds."""
-    return each(source, source.poll, most=1, timeout=timeout, look_again_s=LOOK_FOR_RING_S)
+    return each(source, source.poll, most=1, timeout=timeout, poll_s=RING_POLL_S)
 
 
 async def each(source: Subscription | RingReader | RecordBatches, poll: Callable[[], T | None],
-               most: int = MOST_AT_ONCE, timeout: float | None = None,
-               look_again_s: float | None = None) -> AsyncGenerator[T, None]:
+               most: int = MAX_AT_ONCE, timeout: float | None = None,
+               poll_s: float | None = None) -> AsyncGenerator[T, None]:
     """Yields what `poll` returns, until it raises ClosedError or the source is silent for `timeout` seconds.
 
-    If `poll` returns None, waits for the source's descriptor. Calls `poll` again after `look_again_s` seconds at the
+    If `poll` returns None, waits for the source's descriptor. Calls `poll` again after `poll_s` seconds at the
     latest.
     """
     descriptor = source.event_fd()
@@ -61,7 +61,7 @@ async def each(source: Subscription | RingReader | RecordBatches, poll: Callable
             left = None if deadline is None else deadline - loop.time()
             if left is not None and left <= 0:
                 return
-            await readable(descriptor, min((s for s in (left, look_again_s) if s is not None), default=None))
+            await readable(descriptor, min((s for s in (left, poll_s) if s is not None), default=None))
             continue
         yield found
         given, deadline = given + 1, None

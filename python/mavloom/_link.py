@@ -13,7 +13,7 @@ from ._core import Dialect, LinkRecorder, LinkStats, Message, Port, RingWriter, 
 from ._errors import ClosedError, UsageError
 from ._sends import Calls, Sends
 from ._types import MessageTypes
-from ._vehicle import AsyncVehicle, Turns, Vehicle
+from ._vehicle import AsyncVehicle, ExchangeQueues, Vehicle
 
 if TYPE_CHECKING:
     from typing_extensions import Buffer
@@ -43,7 +43,7 @@ class Link(Sends):
     of its own.
     """
 
-    __slots__ = ("_reader", "_turns", "_silence", "mav", "__weakref__")
+    __slots__ = ("_reader", "_exchanges", "_silence", "mav", "__weakref__")
 
     def __init__(self, url: str, *, source_system: int = DEFAULT_SOURCE[0], source_component: int = DEFAULT_SOURCE[1],
                  dialect: Dialect | None = None, buffer: int = DEFAULT_BUFFER_BYTES, version: int = 2) -> None:
@@ -57,7 +57,7 @@ class Link(Sends):
         check_url(url)
         super().__init__(Port(url, source_system, source_component, dialect, buffer, version))
         self._reader: Subscription = self._port.reader
-        self._turns = Turns()
+        self._exchanges = ExchangeQueues()
         self._silence = _silence.Warned()
         self.mav = Sender(self._port)
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from ._link import Link
 
 PATIENCE_S = 5.0  # of a wait without a time-out, before it states why nothing comes
-MOST_NAMED = 5
+MAX_NAMED = 5
 
 
 def reason(link: Link, system: int = 0) -> str:
@@ -23,12 +23,9 @@ def reason(link: Link, system: int = 0) -> str:
         return "; ".join(stats.hints)
     if stats.frames_in:
         return heard(link, stats, system or link.target_system)
-    if stats.refused:
+    if stats.refused and not stats.bad_signature and not stats.wrong_peer:
         return "the frames sent were refused: no program listens there"
-    if stats.junk_bytes or stats.stray_bytes:
-        return (f"{stats.junk_bytes + stats.stray_bytes} bytes arrived that are not MAVLink: is it the right port"
-                f"{', and is the baud rate right' if link.name.startswith('serial:') else ''}?")
-    return f"nothing arrived; {advice(link)}"
+    return f"nothing heard; {link._port.silence_reason}"
 
 
 def heard(link: Link, stats: LinkStats, system: int) -> str:
@@ -37,18 +34,9 @@ def heard(link: Link, stats: LinkStats, system: int) -> str:
     if beat is not None:
         return f"its last heartbeat arrived {time.time() - beat.time_ns * 1e-9:.0f} s ago"
     senders = sorted({(source.sys, source.comp) for source in stats.sources})
-    names = [f"{system}/{component}" for system, component in senders[:MOST_NAMED]]
-    more = [f"{len(senders) - MOST_NAMED} more"] if len(senders) > MOST_NAMED else []
+    names = [f"{system}/{component}" for system, component in senders[:MAX_NAMED]]
+    more = [f"{len(senders) - MAX_NAMED} more"] if len(senders) > MAX_NAMED else []
     return f"heard only {', '.join(names + more) or f'{stats.frames_in} frames'} (system/component)"
-
-
-def advice(link: Link) -> str:
-    scheme = link.name.partition(":")[0]
-    if scheme in ("udpin", "tcpin"):
-        return f"does the vehicle send to port {link.port} of this machine?"
-    if scheme == "udpout":
-        return "a vehicle answers only if something was sent to it: link.send(\"HEARTBEAT\", type=6)"
-    return "does the far side send MAVLink?"
 
 
 class Warned:

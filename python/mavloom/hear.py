@@ -6,6 +6,8 @@ Frames that readers of the ring send go to every peer of the link.
 from __future__ import annotations
 
 import argparse
+import json
+import os
 import signal
 import sys
 import time
@@ -15,6 +17,8 @@ from . import ClosedError, Error, InputError, Link, PermissionDeniedError, RingW
 
 LOOK_AT_SIGNALS_S = 0.1
 LOOK_AT_ANSWERS_S = 1.0
+PRINT_COUNTS_S = 1.0
+SAME_REQUEST_S = 0.2
 
 DESCRIPTION = "Writes the frames of a link to a ring in shared memory, and sends the answers of its readers."
 
@@ -43,17 +47,23 @@ Status: 1 failed, 2 wrong use, 3 the file is not a ring, 4 frames were missed.
 
 
 class Signals:
-    """Records the signal that requests the end. A second one ends the program at once."""
+    """Records the signal that requests the end. A second one ends the program at once, unless it follows so soon that
+    it is the same request: wrappers, and the kernel when a parent dies, may send several."""
 
     def __init__(self) -> None:
         self.received = 0
+        self._received_at = 0.0
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             if signal.getsignal(number) is not signal.SIG_IGN:
                 signal.signal(number, self._remember)
 
     def _remember(self, number: int, frame: object) -> None:
-        self.received = number
-        signal.signal(number, signal.SIG_DFL)
+        now = time.monotonic()
+        if not self.received:
+            self.received, self._received_at = number, now
+        elif now - self._received_at >= SAME_REQUEST_S:
+            signal.signal(number, signal.SIG_DFL)
+            os.kill(os.getpid(), number)
 
 
 def argument(parse: Callable[[str], int]) -> Callable[[str], int]:
@@ -80,6 +90,8 @@ def arguments(words: list[str] | None) -> argparse.Namespace:
     end = parser.add_mutually_exclusive_group()
     end.add_argument("--keep", action="store_true", help="keep the ring at the end, for the next writer")
     end.add_argument("--remove", action="store_true", help="remove the ring at the end (the default)")
+    parser.add_argument("--json", action="store_true",
+                        help="once a second and at the end, print the counts as one JSON object on stdout")
     parser.add_argument("-q", "--quiet", action="store_true", help="print errors only")
     return parser.parse_args(words)
 
@@ -149,26 +161,54 @@ class Answers:
                       "and counted")
 
 
-def hear(link: Link, ring: Ring, answers: Answers, signals: Signals, say: Callable[[str], None]) -> None:
+class Counts:
+    """Prints the counts as JSON, once a second and at the end, if that is wanted."""
+
+    def __init__(self, link: Link, ring: Ring, wanted: bool) -> None:
+        self._link, self._ring, self._wanted = link, ring, wanted
+        self._due = 0.0
+
+    def look(self, now: float) -> None:
+        if self._wanted and now >= self._due:
+            self._due = now + PRINT_COUNTS_S
+            self.print()
+
+    def print(self) -> None:
+        if self._wanted:
+            print(json.dumps({"stats": counts_of(self._link, self._ring.written)}), flush=True)
+
+
+def hear(link: Link, ring: Ring, answers: Answers, counts: Counts, signals: Signals,
+         say: Callable[[str], None]) -> None:
     while not signals.received:
         ring.fill_from(link, LOOK_AT_SIGNALS_S)
         answers.look(time.monotonic())
+        counts.look(time.monotonic())
         if ring.create_again_if_removed():
             say(f"ring {ring.writer.name} was removed; it is created again")
     ring.fill_from(link, 0)
 
 
-def summary(link: Link, name: str, written: int) -> str:
+def counts_of(link: Link, written: int) -> dict[str, int]:
     stats = link.stats
-    not_written = max(stats.frames_in - stats.missed - written, 0)
-    counts = {"lost before they arrived": stats.lost, "dropped by the kernel": stats.kernel_drop,
-              "missed because the ring was full": stats.missed,
-              "not written because the ring was full or the program ended": not_written,
-              "with a wrong checksum": stats.crc_error, "with a wrong signature": stats.bad_signature,
-              "sent by readers of the ring": stats.answers, "of these without a peer": stats.unheard_answers,
-              "refused by a peer that is gone": stats.refused}
-    listed = "".join(f"; {count} {what}" for what, count in counts.items() if count)
-    return f"{name}: {stats.frames_in} frames heard, {written} written{listed}"
+    return {"frames_in": stats.frames_in, "written": written, "lost": stats.lost, "kernel_drop": stats.kernel_drop,
+            "missed": stats.missed, "not_written": max(stats.frames_in - stats.missed - written, 0),
+            "crc_error": stats.crc_error, "bad_signature": stats.bad_signature, "answers": stats.answers,
+            "unheard_answers": stats.unheard_answers, "refused": stats.refused}
+
+
+MEANINGS = {"lost": "lost before they arrived", "kernel_drop": "dropped by the kernel",
+            "missed": "missed because the ring was full",
+            "not_written": "not written because the ring was full or the program ended",
+            "crc_error": "with a wrong checksum", "bad_signature": "with a wrong signature",
+            "answers": "sent by readers of the ring", "unheard_answers": "of these without a peer",
+            "refused": "refused by a peer that is gone"}
+
+
+def summary(link: Link, name: str, written: int) -> str:
+    counts = counts_of(link, written)
+    listed = "".join(f"; {counts[key]} {meaning}" for key, meaning in MEANINGS.items() if counts[key])
+    return f"{name}: {counts['frames_in']} frames heard, {written} written{listed}"
 
 
 def run(options: argparse.Namespace, signals: Signals) -> int:
@@ -184,7 +224,9 @@ def run(options: argparse.Namespace, signals: Signals) -> int:
             answers.serve(name, options.mode)
             existing = "" if ring.writer.created else ", which already existed"
             say(f"hearing on {link.name}, writing to ring {name}{existing}")
-            hear(link, ring, answers, signals, say)
+            counts = Counts(link, ring, options.json)
+            hear(link, ring, answers, counts, signals, say)
+            counts.print()
             say(summary(link, name, ring.written))
         finally:
             ring.close()

@@ -9,6 +9,7 @@ namespace mavloom::python {
 void bind_modes(nanobind::module_& module);
 void bind_parser(nanobind::module_& module);
 void bind_recording(nanobind::module_& module);
+void bind_recording_summary(nanobind::module_& module);
 void bind_recording_writer(nanobind::module_& module);
 void bind_link(nanobind::module_& module);
 void bind_subscription(nanobind::module_& module);

@@ -69,11 +69,6 @@ private:
 
 using OptionalInteger = std::optional<Integer>;
 
-template <class T>
-[[nodiscard]] std::optional<T> in(const char* what, const OptionalInteger& given) {
-    return given ? std::optional<T>(given->in<T>(what)) : std::nullopt;
-}
-
 }  // namespace mavloom::python
 
 template <>

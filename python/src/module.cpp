@@ -3,6 +3,7 @@
 
 #include "bindings.hpp"
 #include "mavloom/base/version.hpp"
+#include "mavloom/ws/transport.hpp"
 #include "message/definitions.hpp"
 #include "message/message.hpp"
 #include "strings.hpp"
@@ -31,6 +32,7 @@ NB_MODULE(_core, module) {
     module.def("set_signature", &set_signature, nanobind::arg("type"), nanobind::arg("attribute"),
                nanobind::sig("def set_signature(type: type, attribute: object) -> None"),
                "Sets the attribute `__signature__` of a type of functions of this module.");
+    mavloom::ws::register_transports();
     module.doc() = "The compiled part of mavloom. Use the package `mavloom` instead.";
     module.def("version", &mavloom::version,
                "The version of the compiled code, such as \"0.1.0\"; between releases, with the commit appended.");
@@ -38,6 +40,7 @@ NB_MODULE(_core, module) {
     bind_dialect(module);
     bind_modes(module);
     bind_parser(module);
+    bind_recording_summary(module);
     bind_recording(module);
     bind_recording_writer(module);
     bind_columns(module);

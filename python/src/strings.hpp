@@ -25,16 +25,21 @@ namespace mavloom::python {
     return PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace");
 }
 
-// The UTF-8 form of a str, valid as long as the str; nothing if it has lone surrogates. Keeps the exception that is
-// set.
+// The UTF-8 form of a str, valid as long as the str. Nothing, and an exception is set, if it has lone surrogates.
+[[nodiscard]] inline std::optional<std::string_view> utf8_of(PyObject* text) noexcept {
+    Py_ssize_t size = 0;
+    const char* utf8 = PyUnicode_AsUTF8AndSize(text, &size);
+    if (utf8 == nullptr) return std::nullopt;
+    return std::string_view(utf8, static_cast<std::size_t>(size));
+}
+
+// The same, but keeps the exception that is set.
 [[nodiscard]] inline std::optional<std::string_view> utf8_during_error(PyObject* text) noexcept {
     PyObject *type = nullptr, *value = nullptr, *trace = nullptr;
     PyErr_Fetch(&type, &value, &trace);
-    Py_ssize_t size = 0;
-    const char* utf8 = PyUnicode_AsUTF8AndSize(text, &size);
+    const auto utf8 = utf8_of(text);
     PyErr_Restore(type, value, trace);  // replaces the error of a text that is not UTF-8
-    if (utf8 == nullptr) return std::nullopt;
-    return std::string_view(utf8, static_cast<std::size_t>(size));
+    return utf8;
 }
 
 // The UTF-8 form of a str, with escapes for lone surrogates.

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-namespace mavloom {
+#include "mavloom/base/text.hpp"
 
-static char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+namespace mavloom {
 
 // The Levenshtein distance, ignoring case, computed with a single row.
 static std::size_t distance(std::string_view a, std::string_view b) {
@@ -29,8 +29,6 @@ static std::size_t distance(std::string_view a, std::string_view b) {
     return row[b.size()];
 }
 
-static bool same_letters(std::string_view a, std::string_view b) { return std::ranges::equal(a, b, {}, lower, lower); }
-
 // True if one begins or ends with the other, which is at least half of it.
 static bool extends(std::string_view a, std::string_view b) {
     constexpr std::size_t shortest = 4;
@@ -43,8 +41,7 @@ static bool extends(std::string_view a, std::string_view b) {
 static bool begins(std::string_view typed, std::string_view candidate) {
     constexpr std::size_t shortest = 3;
     return typed.size() >= shortest && typed.size() < candidate.size() &&
-           std::equal(typed.begin(), typed.end(), candidate.begin(),
-                      [](char a, char b) { return lower(a) == lower(b); });
+           same_letters(typed, candidate.substr(0, typed.size()));
 }
 
 std::string_view nearest(std::string_view typed, std::span<const std::string_view> candidates) {

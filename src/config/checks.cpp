@@ -19,15 +19,6 @@ tl::unexpected<SetupError> bad(std::string_view file_name, std::uint32_t line, s
     return setup_error(SetupCode::bad_input, fmt::format("{}:{}: {}", file_name, line, what));
 }
 
-SetupResult<void> check_no_rings(const Config& config, std::string_view file_name) {
-    return detail::each_endpoint(
-        config, [&](const endpoint::Endpoint& endpoint, const Section& section) -> SetupResult<void> {
-            static constexpr std::array<std::string_view, 3> own{"ring", "url", "scheme"};
-            if (endpoint.scheme != endpoint::Scheme::shm) return {};
-            return bad(file_name, detail::line_of(section, own), endpoint::ring_is_no_endpoint(endpoint));
-        });
-}
-
 // The section's line in the file; 0 if the file does not have it.
 std::uint32_t line_of_section(const Config& config, std::string_view name) {
     const auto section = std::ranges::find(config.sections, name, &Section::name);
@@ -47,10 +38,9 @@ SetupResult<void> check_sections(const Config& config, std::string_view file_nam
 SetupResult<void> check_links(const Config& config, std::string_view file_name) {
     return detail::each_endpoint(
         config, [&](const endpoint::Endpoint& endpoint, const Section& section) -> SetupResult<void> {
-            static constexpr std::array<std::string_view, 2> own{"url", "scheme"};
-            auto good = endpoint.scheme == endpoint::Scheme::tlog
-                            ? endpoint::check_written(endpoint)
-                            : endpoint::check_link(endpoint, endpoint::RoutingOptions::by_owner);
+            static constexpr std::array<std::string_view, 3> own{"ring", "url", "scheme"};
+            auto good = endpoint.is_recording() ? endpoint::check_written(endpoint)
+                                                : endpoint::check_link(endpoint, endpoint::RoutingOptions::by_owner);
             return good ? good : bad(file_name, detail::line_of(section, own), good.error().text);
         });
 }
@@ -93,7 +83,6 @@ SetupResult<void> check_groups(const Config& config, std::string_view file_name)
 }  // namespace
 
 SetupResult<void> check_for_router(const Config& config, std::string_view file_name, const dialect::Dialect& dialect) {
-    if (auto good = check_no_rings(config, file_name); !good) return good;
     if (auto good = check_links(config, file_name); !good) return good;
     if (auto good = check_no_loops(config, file_name); !good) return good;
     if (auto good = check_sections(config, file_name); !good) return good;

@@ -34,7 +34,6 @@ public:
 
     SetupResult<Config> load() {
         static constexpr std::array<std::string_view, 1> lists{"endpoint"};
-        if (auto done = refuse_web(); !done) return tl::unexpected(std::move(done.error()));
         if (auto done = document_.check_tables(config_sections(), lists); !done)
             return tl::unexpected(std::move(done.error()));
         if (auto done = variables_.check(config_.notes); !done) return tl::unexpected(std::move(done.error()));
@@ -52,19 +51,6 @@ public:
     }
 
 private:
-    // Earlier versions took these settings, although nothing has ever listened there.
-    [[nodiscard]] SetupResult<void> refuse_web() const {
-        if (const Table* const table = document_.find("web"))
-            return document_.error(table->line, "this version has no web page, so nothing would listen; remove [web]");
-        for (const auto& [name, value] : environment_)
-            if (name.starts_with("MAVLOOM_WEB_"))
-                return setup_error(SetupCode::bad_input,
-                                   fmt::format("environment: this version has no web page, so nothing would listen; "
-                                               "type unset {}",
-                                               shown(name)));
-        return {};
-    }
-
     // Precedence is default, file, environment, option: the later one wins.
     SetupResult<void> read_section(std::string_view name, const Table* table) {
         std::vector<std::string_view> known;

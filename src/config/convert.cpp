@@ -10,6 +10,7 @@
 #include "config/convert_ini.hpp"
 #include "config/text.hpp"
 #include "mavloom/base/suggest.hpp"
+#include "mavloom/base/text.hpp"
 #include "mavloom/config/config.hpp"
 #include "mavloom/endpoint/endpoint.hpp"
 #include "mavloom/endpoint/grammar.hpp"
@@ -57,12 +58,12 @@ constexpr std::array filter_options{FilterOption{"in_allow", "Allow", "In"}, Fil
                                     FilterOption{"out_block", "Block", "Out"}};
 
 constexpr std::uint64_t default_tcp_port = 5760, first_udp_port = 14550;
-constexpr std::uint64_t most_dedup_ms = 60'000;
+constexpr std::uint64_t max_dedup_ms = 60'000;
 
-bool is_off(std::string_view text) { return text == "0" || same_word(text, "false"); }
+bool is_off(std::string_view text) { return text == "0" || same_letters(text, "false"); }
 
 bool is_default(std::string_view value, std::string_view default_value) {
-    return same_word(value, default_value) || (default_value == "false" && is_off(value));
+    return same_letters(value, default_value) || (default_value == "false" && is_off(value));
 }
 
 std::string toml_string(std::string_view text) {
@@ -125,7 +126,7 @@ private:
 
     SetupResult<void> read_general() {
         const auto found = std::ranges::find_if(sections_,
-                                                [](const IniSection& s) { return same_word(s.name, "General"); });
+                                                [](const IniSection& s) { return same_letters(s.name, "General"); });
         if (found == sections_.end()) return {};
         const IniSection& general = *found;
         auto port = number(general, "TcpServerPort", 0, 65535, default_tcp_port);
@@ -147,9 +148,9 @@ private:
     SetupResult<void> read_dedup(const IniSection& general) {
         const auto period = number(general, "DeduplicationPeriod", 0, 0xFFFFFFFF, 0);
         if (!period) return tl::unexpected(period.error());
-        if (*period != 0) put_key("dedup_ms", fmt::format("{}", std::min(*period, most_dedup_ms)));
-        if (*period > most_dedup_ms)
-            note(general, *general.find("DeduplicationPeriod"), fmt::format("the maximum is {} ms", most_dedup_ms));
+        if (*period != 0) put_key("dedup_ms", fmt::format("{}", std::min(*period, max_dedup_ms)));
+        if (*period > max_dedup_ms)
+            note(general, *general.find("DeduplicationPeriod"), fmt::format("the maximum is {} ms", max_dedup_ms));
         return {};
     }
 
@@ -157,7 +158,7 @@ private:
         const auto* entry = general.find("DebugLogLevel");
         if (entry == nullptr) return {};
         for (const std::string_view level : {"error", "warning", "info", "debug", "trace"}) {
-            if (!same_word(entry->value, level)) continue;
+            if (!same_letters(entry->value, level)) continue;
             toml_ += fmt::format("\n[log]\nlevel = \"{}\"\n", level == "trace" ? "debug" : level);
             return {};
         }
@@ -179,9 +180,9 @@ private:
 
     SetupResult<void> read_section(const IniSection& section) {
         const auto [kind, name] = heading(section);
-        if (same_word(section.name, "General")) return {};
-        const bool uart = same_word(kind, "UartEndpoint"), udp = same_word(kind, "UdpEndpoint"),
-                   tcp = same_word(kind, "TcpEndpoint");
+        if (same_letters(section.name, "General")) return {};
+        const bool uart = same_letters(kind, "UartEndpoint"), udp = same_letters(kind, "UdpEndpoint"),
+                   tcp = same_letters(kind, "TcpEndpoint");
         if (!uart && !udp && !tcp) {
             constexpr std::array<std::string_view, 4> kinds{"General", "UartEndpoint", "UdpEndpoint", "TcpEndpoint"};
             note(section, fmt::format("mavlink-router has no such section{}", did_you_mean(kind, kinds)));
@@ -244,13 +245,13 @@ private:
         if (address == nullptr || mode == nullptr)
             return bad(section.line,
                        fmt::format("[{}] has no {}", shown(section.name), address == nullptr ? "Address" : "Mode"));
-        if (same_word(mode->value, "Server") || same_word(mode->value, "Eavesdropping")) {
+        if (same_letters(mode->value, "Server") || same_letters(mode->value, "Eavesdropping")) {
             const auto* port = section.find("Port");
             if (port == nullptr) return bad(section.line, fmt::format("[{}] has no Port", shown(section.name)));
             if (auto good = check_port_is_free(section, *address, *port); !good) return good;
             return put_url("udpin", *address, *port);
         }
-        if (!same_word(mode->value, "Normal") && !same_word(mode->value, "Client"))
+        if (!same_letters(mode->value, "Normal") && !same_letters(mode->value, "Client"))
             return bad(mode->line, fmt::format("Mode: {} is neither Normal nor Server", in_quotes(mode->value)));
         const auto* given_port = section.find("Port");
         const IniEntry port = given_port != nullptr
@@ -330,7 +331,7 @@ private:
     }
 
     static const IniEntry* udp_filter(const IniSection& section) {
-        return same_word(heading(section).first, "UdpEndpoint") ? section.find("Filter") : nullptr;
+        return same_letters(heading(section).first, "UdpEndpoint") ? section.find("Filter") : nullptr;
     }
 
     // ---- values -----------------------------------------------------------------------------------------------------
@@ -350,10 +351,7 @@ private:
         std::string_view rest = entry.value;
         for (;;) {
             const auto comma = rest.find(',');
-            auto term = rest.substr(0, comma);
-            term.remove_prefix(std::min(term.find_first_not_of(' '), term.size()));
-            term = term.substr(0, term.find_last_not_of(' ') + 1);
-            const auto value = endpoint::parse_integer(term, least, most);
+            const auto value = endpoint::parse_integer(trimmed(rest.substr(0, comma)), least, most);
             if (!value) return bad(entry.line, fmt::format("{}: {}", entry.key, value.error().text));
             values.push_back(*value);
             if (comma == std::string_view::npos) return values;
@@ -364,7 +362,7 @@ private:
     void find_taken_ports() {
         for (const auto& section : sections_)
             if (const auto* port = section.find("Port");
-                port != nullptr && same_word(heading(section).first, "UdpEndpoint"))
+                port != nullptr && same_letters(heading(section).first, "UdpEndpoint"))
                 if (const auto value = endpoint::parse_port(port->value)) taken_ports_.push_back(*value);
     }
 
@@ -397,7 +395,7 @@ private:
 
     void note_unknown_keys(const IniSection& section, std::span<const std::string_view> known) {
         for (const auto& entry : section.entries)
-            if (std::ranges::none_of(known, [&](std::string_view key) { return same_word(key, entry.key); }))
+            if (std::ranges::none_of(known, [&](std::string_view key) { return same_letters(key, entry.key); }))
                 note(section, entry,
                      fmt::format("mavlink-router documents no such key{}", did_you_mean(entry.key, known)));
     }

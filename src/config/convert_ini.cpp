@@ -5,21 +5,12 @@
 
 #include <algorithm>
 
+#include "mavloom/base/text.hpp"
 #include "mavloom/endpoint/grammar.hpp"
 
 namespace mavloom::config::detail {
 
 namespace {
-
-constexpr std::string_view blanks = " \t\r\v\f";
-
-std::string_view trimmed(std::string_view text) noexcept {
-    const auto first = text.find_first_not_of(blanks);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-constexpr char lower(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 class IniReader {
 public:
@@ -55,7 +46,7 @@ private:
         const auto name = line.substr(1, end - 1);
         if (name.empty() || trimmed(name).size() != name.size())
             return bad("a section's name must not begin or end with a blank, as in [UdpEndpoint ground]");
-        current_ = std::ranges::find_if(sections_, [&](const IniSection& s) { return same_word(s.name, name); }) -
+        current_ = std::ranges::find_if(sections_, [&](const IniSection& s) { return same_letters(s.name, name); }) -
                    sections_.begin();
         if (current_ == static_cast<std::ptrdiff_t>(sections_.size()))
             sections_.push_back({std::string(name), line_, {}});
@@ -72,7 +63,7 @@ private:
         if (key.empty()) return bad("there is no key before '='");
         if (value.empty()) return bad(fmt::format("{} has no value", shown(key)));
         auto& entries = sections_[static_cast<std::size_t>(current_)].entries;
-        const auto before = std::ranges::find_if(entries, [&](const IniEntry& e) { return same_word(e.key, key); });
+        const auto before = std::ranges::find_if(entries, [&](const IniEntry& e) { return same_letters(e.key, key); });
         if (before != entries.end()) entries.erase(before);
         entries.push_back({std::string(key), std::string(value), line_});
         return {};
@@ -86,12 +77,8 @@ private:
 
 }  // namespace
 
-bool same_word(std::string_view a, std::string_view b) noexcept {
-    return std::ranges::equal(a, b, [](char x, char y) { return lower(x) == lower(y); });
-}
-
 const IniEntry* IniSection::find(std::string_view key) const noexcept {
-    const auto found = std::ranges::find_if(entries, [&](const IniEntry& e) { return same_word(e.key, key); });
+    const auto found = std::ranges::find_if(entries, [&](const IniEntry& e) { return same_letters(e.key, key); });
     return found == entries.end() ? nullptr : &*found;
 }
 

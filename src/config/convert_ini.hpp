@@ -31,7 +31,4 @@ struct IniSection {
 // Errors are `bad_input` and begin with FILE:LINE:.
 [[nodiscard]] SetupResult<std::vector<IniSection>> parse_ini(std::string_view text, std::string_view file_name);
 
-// Compares without regard to the case of ASCII letters.
-[[nodiscard]] bool same_word(std::string_view a, std::string_view b) noexcept;
-
 }  // namespace mavloom::config::detail

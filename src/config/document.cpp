@@ -12,6 +12,7 @@
 #include "config/text.hpp"
 #include "mavloom/base/shown.hpp"
 #include "mavloom/base/suggest.hpp"
+#include "mavloom/base/text.hpp"
 #include "mavloom/net/run_folder.hpp"
 
 namespace mavloom::config {
@@ -99,11 +100,11 @@ std::vector<Table> tables_of(const toml::table& root) {
 
 // The TOML library handles dotted keys recursively, so a key of 50,000 parts would overflow the stack.
 std::uint32_t line_with_endless_key(std::string_view text) {
-    constexpr int most_dots = 1000;
+    constexpr int max_dots = 1000;
     std::uint32_t line = 1;
     int dots = 0;
     for (const char c : text) {
-        if (c == '.' && ++dots > most_dots) return line;
+        if (c == '.' && ++dots > max_dots) return line;
         if (c != '\n') continue;
         ++line;
         dots = 0;
@@ -114,9 +115,7 @@ std::uint32_t line_with_endless_key(std::string_view text) {
 // The line of the file, counted from 1, without blanks at its ends.
 std::string_view line_at(std::string_view text, std::uint32_t line) {
     for (; line > 1 && !text.empty(); --line) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
-    text = text.substr(0, text.find('\n'));
-    const auto first = std::min(text.find_first_not_of(" \t\r"), text.size());
-    return text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
+    return trimmed(text.substr(0, text.find('\n')));
 }
 
 // A heading that only configurations of mavlink-router have, such as [General] or [UdpEndpoint alpha]; 0 if there is
@@ -142,14 +141,14 @@ bool is_value(std::string_view text) {
 }
 
 // The line without a comment at its end.
-std::string_view without_comment(std::string_view line) { return line_at(line.substr(0, line.find(" #")), 1); }
+std::string_view without_comment(std::string_view line) { return trimmed(line.substr(0, line.find(" #"))); }
 
 // A hint for `url = udpin://0.0.0.0:14550`: text needs quotes.
 std::string quotes_hint(std::string_view line) {
     constexpr std::string_view begins_a_value = "\"'[{#";
     const auto equals = line.find('=');
     if (equals == std::string_view::npos) return {};
-    const auto key = line_at(line.substr(0, equals), 1), value = without_comment(line.substr(equals + 1));
+    const auto key = trimmed(line.substr(0, equals)), value = without_comment(line.substr(equals + 1));
     if (key.empty() || value.empty() || begins_a_value.find(value.front()) != std::string_view::npos) return {};
     if (is_value(value)) return {};  // the error is another one, such as a key that is given twice
     return fmt::format("; text is written in quotes: {} = \"{}\"", shown(key), shown(value));
@@ -215,6 +214,9 @@ SetupResult<std::string> Document::text_of(const Entry& entry) const {
 
 SetupResult<Document> parse_document(std::string_view text, std::string_view file_name) {
     Document document{std::string(file_name), {}};
+    if (text.find('\0') != std::string_view::npos)
+        return document.error(
+            1, fmt::format("this is not a text file; if it is a recording, mavloom listen {} shows it", file_name));
     if (const auto line = line_with_endless_key(text); line != 0)
         return document.error(line, "more than 1000 dots in one line: expected keys like router.dedup_ms");
     if (const auto line = line_of_mavlink_router(text); line != 0)

@@ -20,10 +20,11 @@ constexpr std::array<std::string_view, 7> place_keys{"url", "scheme", "host", "p
 // True for the keys that give the endpoint's address or path, if its scheme has them.
 bool is_place_of(endpoint::Scheme scheme, std::string_view key) {
     if (key == "url" || key == "scheme") return true;
-    const auto set = endpoint::set_of(scheme);
-    if (key == "host" || key == "port") return (set & endpoint::address_schemes) != 0;
-    if (key == "path") return scheme == endpoint::Scheme::serial || scheme == endpoint::Scheme::tlog;
-    return key == "ring" && scheme == endpoint::Scheme::shm;
+    const auto form = endpoint::row_of(scheme).form;
+    const bool is_address = key == "host" || key == "port";
+    if (form == endpoint::Form::address) return is_address;
+    if (form == endpoint::Form::address_and_path) return is_address || key == "path";
+    return key == (form == endpoint::Form::ring ? "ring" : "path");
 }
 
 // Keys of other programs' files, and what to write instead.
@@ -49,7 +50,7 @@ public:
                 return bad(setting.line, done.error().text);
         }
         if (auto good = endpoint::check_options(*endpoint); !good) return bad(table_.line, good.error().text);
-        if ((endpoint::set_of(endpoint->scheme) & endpoint::address_schemes) != 0 && endpoint->address.port == 0)
+        if (endpoint->has_address() && endpoint->address.port == 0)
             return bad(table_.line, "with port 0, other programs could not know the port; choose one from 1 to 65535");
         Section section = section_of(*endpoint);
         return PlacedEndpoint{std::move(*endpoint), std::move(section)};
@@ -97,17 +98,11 @@ private:
     SetupResult<endpoint::Endpoint> place_of_parts() const {
         const Setting* const scheme = find("scheme");
         if (scheme == nullptr) return without_scheme();
-        const auto names = endpoint::scheme_names();
-        const auto found = std::find(names.begin(), names.end(), scheme->value);
-        if (found == names.end()) {
-            auto hint = did_you_mean(scheme->value, names);
-            if (hint.empty()) hint = fmt::format("; there are {}", fmt::join(names, ", "));
-            return bad(scheme->line, fmt::format("there is no scheme {}{}", in_quotes(scheme->value), hint));
-        }
+        const auto found = endpoint::parse_scheme(scheme->value);
+        if (!found) return bad(scheme->line, found.error().text);
         endpoint::Endpoint endpoint;
-        endpoint.scheme = static_cast<endpoint::Scheme>(found - names.begin());
-        const bool has_address = (endpoint::set_of(endpoint.scheme) & endpoint::address_schemes) != 0;
-        return has_address ? place_of_address(std::move(endpoint)) : place_of_path(std::move(endpoint));
+        endpoint.scheme = *found;
+        return endpoint.has_address() ? place_of_address(std::move(endpoint)) : place_of_path(std::move(endpoint));
     }
 
     [[nodiscard]] tl::unexpected<SetupError> without_scheme() const {
@@ -119,7 +114,7 @@ private:
     }
 
     SetupResult<endpoint::Endpoint> place_of_path(endpoint::Endpoint endpoint) const {
-        const bool is_ring = endpoint.scheme == endpoint::Scheme::shm;
+        const bool is_ring = endpoint.is_ring();
         const auto* path = find(is_ring ? "ring" : "path");
         if (path == nullptr)
             return bad(table_.line, fmt::format("{} needs {}", endpoint::scheme_name(endpoint.scheme),
@@ -143,6 +138,11 @@ private:
         endpoint.address = {std::move(*parsed_host), *parsed_port};
         if (auto good = endpoint::check_address(endpoint.scheme, endpoint.address); !good)
             return bad(host->line, good.error().text);
+        const auto* path = find("path");
+        if (path == nullptr || endpoint.row().form != endpoint::Form::address_and_path) return endpoint;
+        if (auto good = endpoint::check_path(endpoint.scheme, path->value); !good)
+            return bad(path->line, good.error().text);
+        endpoint.path = path->value;
         return endpoint;
     }
 

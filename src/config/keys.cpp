@@ -10,7 +10,6 @@
 #include "mavloom/base/name.hpp"
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/endpoint/grammar.hpp"
-#include "mavloom/net/address.hpp"
 
 namespace mavloom::config {
 
@@ -71,15 +70,7 @@ SetupResult<void> put_name(std::string_view text, std::string_view whose, std::s
 }
 
 SetupResult<void> set_metrics(Config& config, std::string_view text) {
-    const auto address = endpoint::parse_host_port(text, {});
-    if (!address) return endpoint::usage(fmt::format("{} is not HOST:PORT, as in 127.0.0.1:9090", in_quotes(text)));
-    if (auto good = endpoint::check_address(endpoint::Scheme::tcpin, *address); !good) return good;
-    if (!net::Address::parse(address->host, address->port))
-        return endpoint::usage(
-            fmt::format("{} is not a numeric address of this machine; for example, type 127.0.0.1:{}",
-                        in_quotes(address->host), address->port));
-    config.service.metrics = *address;
-    return {};
+    return endpoint::put(endpoint::parse_server_address(text), config.service.metrics);
 }
 
 SetupResult<void> set_full(Config& config, std::string_view text) {
@@ -106,6 +97,19 @@ SetupResult<void> set_record_path(Config& config, std::string_view text) {
     if (auto good = endpoint::check_path(endpoint::Scheme::tlog, text); !good) return good;
     config.record.path = std::string(text);
     return {};
+}
+
+// Names, separated by commas.
+std::vector<std::string> split_list(std::string_view text) {
+    std::vector<std::string> all;
+    while (!text.empty()) {
+        auto part = text.substr(0, text.find(','));
+        text.remove_prefix(std::min(text.size(), part.size() + 1));
+        while (part.starts_with(' ')) part.remove_prefix(1);
+        while (part.ends_with(' ')) part.remove_suffix(1);
+        if (!part.empty()) all.emplace_back(part);
+    }
+    return all;
 }
 
 constexpr std::array<std::string_view, 2> components{"system", "drop"};
@@ -207,6 +211,22 @@ constexpr std::array all_keys{
               [](Config& c, std::string_view t) {
                   return endpoint::put(endpoint::parse_rotate_every(t), c.record.rotate_every);
               }},
+    ConfigKey{"web",
+              "listen",
+              "",
+              [](Config& c, std::string_view t) { return set_web_listen(c.web, t); },
+              {"--web", "HOST:PORT",
+               "serve the page and viewers at http://HOST:PORT, for example 127.0.0.1:8088 (docs/guide/web.md)"}},
+    ConfigKey{"web",
+              "origin",
+              "",
+              [](Config& c, std::string_view t) { return set_web_origins(c.web, t); },
+              {"--web-origin", "URL,...", "web pages that may connect to --web, as in https://app.foxglove.dev"}},
+    ConfigKey{"web",
+              "host",
+              "",
+              [](Config& c, std::string_view t) { return set_web_hosts(c.web, t); },
+              {"--web-host", "NAME,...", "further names of this machine that clients of --web use"}},
     ConfigKey{"log",
               "level",
               "info",
@@ -218,9 +238,20 @@ constexpr bool is_router_key(const ConfigKey& key) { return key.section == "rout
 static_assert(std::ranges::equal(all_keys | std::views::filter(is_router_key), endpoint::router_keys, {},
                                  &ConfigKey::name));
 
-constexpr std::array<std::string_view, 4> sections{"router", "ring", "record", "log"};
+constexpr std::array<std::string_view, 5> sections{"router", "ring", "record", "log", "web"};
 
 }  // namespace
+
+SetupResult<void> set_web_listen(WebConfig& web, std::string_view text) {
+    return endpoint::put(endpoint::parse_server_address(text), web.listen);
+}
+SetupResult<void> set_web_origins(WebConfig& web, std::string_view text) {
+    return endpoint::put(endpoint::parse_origins(text), web.origins);
+}
+SetupResult<void> set_web_hosts(WebConfig& web, std::string_view text) {
+    web.hosts = split_list(text);
+    return {};
+}
 
 std::span<const ConfigKey> config_keys() noexcept { return all_keys; }
 std::span<const std::string_view> config_sections() noexcept { return sections; }

@@ -34,14 +34,14 @@ struct Bound {
 std::optional<Bound> bound_by(const endpoint::Endpoint& endpoint, const Section& section) {
     static constexpr std::array<std::string_view, 2> own{"port", "url"};
     static constexpr std::array<std::string_view, 1> bind{"bind"};
-    const endpoint::Scheme scheme = endpoint.scheme;
+    const endpoint::SchemeRow& row = endpoint.row();
+    const bool is_tcp = row.carrier == endpoint::Carrier::tcp;
     const auto& o = endpoint.options;
-    if (scheme == endpoint::Scheme::udpmcast)  // joins its group on iface, but binds to no interface
+    if (row.cast == endpoint::Cast::group)  // joins its group on iface, but binds to no interface
         return Bound{false, true, endpoint.address, {}, section.label, line_of(section, own)};
-    if (scheme == endpoint::Scheme::udpin || scheme == endpoint::Scheme::tcpin)
-        return Bound{
-            scheme == endpoint::Scheme::tcpin, false, endpoint.address, o.iface, section.label, line_of(section, own)};
-    if ((scheme == endpoint::Scheme::udpout || scheme == endpoint::Scheme::udpbcast) && o.bind && o.bind->port != 0)
+    if (endpoint.listens())
+        return Bound{is_tcp, false, endpoint.address, o.iface, section.label, line_of(section, own)};
+    if (!is_tcp && o.bind && o.bind->port != 0)
         return Bound{false, false, *o.bind, o.iface, section.label, line_of(section, bind)};
     return std::nullopt;
 }
@@ -83,7 +83,7 @@ SetupResult<void> detail::check_recordings(const Config& config, std::string_vie
     if (!config.record.path.empty()) (void)is_new(config.record.path);
     return each_endpoint(config, [&](const endpoint::Endpoint& endpoint, const Section& section) -> SetupResult<void> {
         static constexpr std::array<std::string_view, 2> own{"path", "url"};
-        if (endpoint.scheme != endpoint::Scheme::tlog || is_new(endpoint.path)) return {};
+        if (!endpoint.is_recording() || is_new(endpoint.path)) return {};
         return setup_error(SetupCode::bad_input, fmt::format("{}:{}: another recording already writes to {}", file_name,
                                                              line_of(section, own), in_quotes(endpoint.path)));
     });

@@ -10,28 +10,31 @@
 #include <unistd.h>
 
 #include <boost/asio/io_context.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <cerrno>
 #include <chrono>
+#include <optional>
 #include <system_error>
 #include <thread>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "control/metrics_reports.hpp"
 #include "control/sessions.hpp"
 #include "mavloom/base/shown.hpp"
 #include "mavloom/base/thread.hpp"
+#include "mavloom/endpoint/grammar.hpp"
+#include "mavloom/http/server.hpp"
+#include "mavloom/http/thread.hpp"
 #include "mavloom/net/fd.hpp"
-#include "mavloom/net/port_holder.hpp"
-#include "mavloom/net/tcp.hpp"
 
 namespace mavloom::control {
 
 namespace {
 
-constexpr std::size_t most_sessions = 64;  // of each kind; a newcomer takes the place of the longest idle client
-constexpr std::size_t most_when_few_descriptors = 4;  // of the metrics server, whose clients may be anybody
-constexpr std::chrono::seconds look_interval{1};
+constexpr std::size_t max_sessions = 64;  // a newcomer takes the place of the longest idle client
+constexpr std::chrono::seconds check_interval{1};
 // Reports take much processor time. On a busy machine they wait for the threads that pass frames on.
 constexpr int niceness = 10;
 constexpr auto socket_mode = S_IRUSR | S_IWUSR;
@@ -94,26 +97,23 @@ private:
     net::Fd fd_;
 };
 
-// Accepts clients for as long as it lives.
-// `Source` answers the requests of the sessions.
-template <class Protocol, class Session, class Source>
+// Accepts clients of the control socket for as long as it lives.
 class Acceptor {
 public:
-    Acceptor(asio::io_context& context, Source& source) : acceptor_(context), retry_(context), source_(source) {}
+    Acceptor(asio::io_context& context, Served& served) : acceptor_(context), retry_(context), served_(served) {}
 
-    void open(const typename Protocol::endpoint& endpoint) {
+    void open(const Local::endpoint& endpoint) {
         acceptor_.open(endpoint.protocol());
-        if constexpr (std::is_same_v<Protocol, Local>) ::fchmod(acceptor_.native_handle(), socket_mode);
-        if constexpr (std::is_same_v<Protocol, Tcp>) acceptor_.set_option(asio::socket_base::reuse_address(true));
+        ::fchmod(acceptor_.native_handle(), socket_mode);
         acceptor_.bind(endpoint);
         acceptor_.listen();
     }
     void accept() {
-        acceptor_.async_accept([this](error_code error, typename Protocol::socket socket) {
+        acceptor_.async_accept([this](error_code error, Local::socket socket) {
             if (error == asio::error::operation_aborted) return;
             if (error) return accept_later();  // for example, no free descriptors
-            if (make_room()) add(std::make_shared<Session>(std::move(socket), source_));
-            else Session::turn_away(socket);
+            if (make_room()) add(std::make_shared<ControlSession>(std::move(socket), served_));
+            else ControlSession::turn_away(socket);
             accept();
         });
     }
@@ -121,10 +121,9 @@ public:
         error_code error;
         acceptor_.close(error);
     }
-    [[nodiscard]] auto local() const { return acceptor_.local_endpoint(); }
 
 private:
-    void add(const std::shared_ptr<Session>& session) {
+    void add(const std::shared_ptr<ControlSession>& session) {
         sessions_.push_back(session);
         session->read();
     }
@@ -132,12 +131,12 @@ private:
     // answers.
     bool make_room() {
         std::erase_if(sessions_, [](const auto& session) { return session.expired(); });
-        for (const auto most = most_now(); sessions_.size() >= most;)
+        while (sessions_.size() >= max_sessions)
             if (!hang_up_idlest()) return false;
         return true;
     }
     bool hang_up_idlest() {
-        std::shared_ptr<Session> idlest;
+        std::shared_ptr<ControlSession> idlest;
         for (const auto& weak : sessions_)
             if (auto session = weak.lock();
                 idlest == nullptr || session->idle_time().since() < idlest->idle_time().since())
@@ -147,10 +146,6 @@ private:
         std::erase_if(sessions_, [&](const auto& session) { return session.lock() == idlest; });
         return true;
     }
-    [[nodiscard]] std::size_t most_now() {
-        const bool is_short = std::is_same_v<Protocol, Tcp> && net::few_descriptors_left(acceptor_.native_handle());
-        return is_short ? most_when_few_descriptors : most_sessions;
-    }
     void accept_later() {
         retry_.expires_after(std::chrono::seconds(1));
         retry_.async_wait([this](error_code error) {
@@ -158,10 +153,10 @@ private:
         });
     }
 
-    typename Protocol::acceptor acceptor_;
+    Local::acceptor acceptor_;
     asio::steady_timer retry_;
-    Source& source_;
-    std::vector<std::weak_ptr<Session>> sessions_;
+    Served& served_;
+    std::vector<std::weak_ptr<ControlSession>> sessions_;
 };
 
 tl::unexpected<SetupError> error_of(std::string_view what, const boost::system::system_error& error) {
@@ -172,10 +167,10 @@ tl::unexpected<SetupError> error_of(std::string_view what, const boost::system::
 
 class Control::Impl {
 public:
-    explicit Impl(Served& served)
-        : served_(served), reports_(served), control_(context_, served), metrics_(context_, reports_) {}
+    explicit Impl(Served& served) : served_(served), reports_(served), control_(context_, served) {}
     // Posted work keeps its session alive, and the session's socket needs the context. So drop the work first.
     ~Impl() {
+        metrics_.reset();  // its requests are posted to the context
         context_.stop();
         if (thread_.joinable()) thread_.join();
         served_.drop_posted();
@@ -184,21 +179,22 @@ public:
 
     SetupResult<void> open(const ControlOptions& options) {
         on_notice_ = options.on_notice;
-        if (!options.socket.empty())
-            if (auto opened = open_socket(options.socket); !opened) return opened;
-        return options.metrics ? open_metrics(*options.metrics) : SetupResult<void>{};
+        if (options.metrics)  // first: if the socket is there, the metrics are, too
+            if (auto opened = open_metrics(*options.metrics); !opened) return opened;
+        return options.socket.empty() ? SetupResult<void>{} : open_socket(options.socket);
     }
 
     void start() {
         if (!socket_.empty()) control_.accept();
-        if (metrics_port() != 0) metrics_.accept();
         thread_ = thread_without_signals([this] {
             ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), niceness);  // of this thread only
             run();
         });
     }
 
-    [[nodiscard]] std::uint16_t metrics_port() const noexcept { return metrics_port_; }
+    [[nodiscard]] std::uint16_t metrics_port() const noexcept {
+        return metrics_ ? metrics_->addresses().front().port() : 0;
+    }
 
 private:
     SetupResult<void> open_socket(const std::filesystem::path& path) {
@@ -217,13 +213,13 @@ private:
     // Looks at the socket between two rounds. The context stops at the end, or if there is nothing to serve.
     void run() {
         while (!context_.stopped()) {
-            context_.run_for(look_interval);
-            if (!socket_.empty() && !context_.stopped()) look_at_socket();
+            context_.run_for(check_interval);
+            if (!socket_.empty() && !context_.stopped()) check_socket();
         }
     }
 
     // Another program may have removed the socket or its folder, or put something else in its place.
-    void look_at_socket() {
+    void check_socket() {
         const ino_t there = inode_of(socket_);
         if (there == inode_ && there != 0) return;
         const std::string_view what = there == 0 ? "removed" : "replaced";
@@ -254,32 +250,42 @@ private:
         return {};
     }
 
-    SetupResult<void> open_metrics(const endpoint::HostPort& address) {
-        try {
-            error_code error;
-            const auto host = asio::ip::make_address(address.host, error);
-            if (error)
-                return setup_error(SetupCode::usage,
-                                   fmt::format("metrics: {} is not a numeric address of this machine; for example, "
-                                               "type 127.0.0.1:{}",
-                                               in_quotes(address.host), address.port));
-            metrics_.open(Tcp::endpoint(host, address.port));
-            metrics_port_ = metrics_.local().port();
-            if (host.is_loopback()) reports_.require_local_host();
-            return {};
-        } catch (const boost::system::system_error& error) {
-            return net::bind_error(fmt::format("metrics on {}:{}", address.host, address.port), error.code().value(),
-                                   net::Transport::tcp,
-                                   net::Address::parse(address.host, address.port).value_or(net::Address()));
-        }
+    SetupResult<void> open_metrics(const endpoint::HostPort& place) {
+        auto address = metrics_address(place);
+        if (!address) return tl::unexpected(std::move(address.error()));
+        auto thread = http::Thread::start(niceness);
+        if (!thread) return tl::unexpected(std::move(thread.error()));
+        auto server = http::Server::listen(*thread, metrics_options(*address));
+        if (!server) return tl::unexpected(std::move(server.error()).within("metrics"));
+        http_thread_.emplace(std::move(*thread));
+        metrics_.emplace(std::move(*server));
+        return {};
+    }
+    static SetupResult<net::Address> metrics_address(const endpoint::HostPort& place) {
+        if (auto good = endpoint::check_server_address(place); !good)
+            return tl::unexpected(std::move(good.error()).within("metrics"));
+        return *net::Address::parse(place.host, place.port);  // as check_server_address demands
+    }
+    // On loopback, clients must name this machine in the Host header, so that web pages in a browser cannot read the
+    // metrics. Pages get no leave to read them anyway, whatever their Origin.
+    http::ServerOptions metrics_options(const net::Address& address) {
+        const auto get = [this](const http::Request&, const http::Respond& respond) {
+            asio::post(context_, [this, respond] { respond_with_metrics(respond); });
+        };
+        return {.addresses = {address},
+                .access = {.any_host = !address.is_loopback(), .own_names = false, .origins = {"*"}},
+                .routes = {{"/metrics", get}}};
+    }
+    void respond_with_metrics(const http::Respond& respond) {
+        reports_.get(context_.get_executor(), [respond](const MetricsReports::Text& text) {
+            respond({.content_type = "text/plain; version=0.0.4; charset=utf-8", .body = text});
+        });
     }
 
     Served& served_;
     asio::io_context context_{1};
     MetricsReports reports_;
-    Acceptor<Local, ControlSession, Served> control_;
-    Acceptor<Tcp, MetricsSession, MetricsReports> metrics_;
-    std::uint16_t metrics_port_ = 0;
+    Acceptor control_;
     NameLock name_;  // destroyed after the socket is removed
     std::filesystem::path socket_;
     // Identifies our own socket. Another program may have removed it, and another program created a new one.
@@ -287,6 +293,8 @@ private:
     std::function<void(std::string_view)> on_notice_;
     bool reported_ = false;  // that the socket is gone and cannot be created
     std::thread thread_;
+    std::optional<http::Thread> http_thread_;  // only if there are metrics
+    std::optional<http::Server> metrics_;
 };
 
 Control::Control(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}

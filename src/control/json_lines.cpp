@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "control/json_lines.hpp"
 
+#include <array>
+#include <cstddef>
+#include <string_view>
+
 namespace mavloom::control {
 
 void append_line(std::string& text, Json object, std::span<const link::NamedCount> counts) {
@@ -21,11 +25,19 @@ void append_gone(std::string& text, const link::Snapshot::OfEndpoint& endpoint) 
     append_line(text, {{"kind", "gone"}, {"endpoint", endpoint.label}}, endpoint.gone);
 }
 
+static std::string_view name_of(Rank rank) noexcept {
+    constexpr std::array<std::string_view, 3> names{"stranger", "own", "verified"};
+    return names[static_cast<std::size_t>(rank)];
+}
+
 void append_link(std::string& text, const link::Snapshot& snapshot, const link::Snapshot::OfLink& link) {
-    append_line(
-        text,
-        {{"kind", "link"}, {"link", link.name}, {"endpoint", snapshot.endpoint_label(link.endpoint)}, {"up", link.up}},
-        link.counts);
+    append_line(text,
+                {{"kind", "link"},
+                 {"link", link.name},
+                 {"endpoint", snapshot.endpoint_label(link.endpoint)},
+                 {"up", link.up},
+                 {"rank", name_of(link.rank)}},
+                link.counts);
 }
 
 void append_sources(std::string& text, const link::Snapshot::OfLink& link) {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "mavloom/base/clock.hpp"
+#include "mavloom/base/durations.hpp"
 #include "mavloom/link/snapshot.hpp"
 
 namespace mavloom::control {
@@ -21,8 +22,6 @@ void append_line(std::string& text, Json object, std::span<const link::NamedCoun
 
 // The line {"ok":true}, which ends a successful answer.
 inline void append_ok(std::string& text) { append_line(text, {{"ok", true}}); }
-
-[[nodiscard]] inline double seconds(Nanoseconds time) { return std::chrono::duration<double>(time).count(); }
 
 // One line each; `append_sources` appends one for each source of the link.
 void append_endpoint(std::string& text, const link::Snapshot::OfEndpoint& endpoint);

@@ -35,11 +35,6 @@ public:
             [this](const Report& report) { answer(whole(report)); });
     }
 
-    // From now on, clients must name this machine in the Host header, so that web pages in a browser cannot read the
-    // metrics.
-    void require_local_host() noexcept { requires_local_host_ = true; }
-    [[nodiscard]] bool requires_local_host() const noexcept { return requires_local_host_; }
-
 private:
     static std::string whole(const Report& report) {
         std::string all;
@@ -56,7 +51,6 @@ private:
     Text text_;
     std::chrono::steady_clock::time_point made_;
     std::vector<Take> waiting_;
-    bool requires_local_host_ = false;
 };
 
 }  // namespace mavloom::control

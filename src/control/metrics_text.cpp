@@ -7,7 +7,6 @@
 #include <array>
 #include <iterator>
 
-#include "control/metrics_help.hpp"
 #include "mavloom/base/version.hpp"
 
 namespace mavloom::control {
@@ -25,14 +24,23 @@ std::string_view type_of(std::string_view name) {
 
 }  // namespace
 
-void MetricsText::add_total(std::string_view prefix, std::string_view name, std::string_view labels,
-                            std::uint64_t value) {
-    const auto metric = fmt::format("mavloom_{}_{}_total", prefix, name);
-    auto at = std::ranges::find(families_, metric, &std::pair<std::string, std::string>::first);
+std::string& MetricsText::family(std::string_view name, std::string_view help, std::string_view type) {
+    auto at = std::ranges::find(families_, name, &std::pair<std::string, std::string>::first);
     if (at == families_.end())
-        at = families_.insert(at, {metric, fmt::format("# HELP {0} Of each {1}: {2}.\n# TYPE {0} {3}\n", metric, prefix,
-                                                       help_of(name), type_of(metric))});
-    fmt::format_to(std::back_inserter(at->second), "{}{{{}}} {}\n", metric, labels, value);
+        at = families_.insert(at,
+                              {std::string(name), fmt::format("# HELP {0} {1}.\n# TYPE {0} {2}\n", name, help, type)});
+    return at->second;
+}
+
+void MetricsText::add(std::string_view prefix, const link::NamedCount& count, std::string_view labels) {
+    const auto metric = fmt::format("mavloom_{}_{}_total", prefix, count.name);
+    auto& lines = family(metric, fmt::format("Of each {}: {}", prefix, count.help), type_of(metric));
+    fmt::format_to(std::back_inserter(lines), "{}{{{}}} {}\n", metric, labels, count.value);
+}
+
+void MetricsText::add_gauge(std::string_view name, std::string_view help, std::string_view labels, double value) {
+    const auto metric = fmt::format("mavloom_{}", name);
+    fmt::format_to(std::back_inserter(family(metric, help, "gauge")), "{}{{{}}} {}\n", metric, labels, value);
 }
 
 std::string MetricsText::text() const {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The two kinds of client session that control.cpp accepts. Each session keeps itself alive until its client is gone.
-// All sessions run on the control thread.
+// The client sessions that control.cpp accepts. Each session keeps itself alive until its client is gone. All sessions
+// run on the control thread.
 #pragma once
 
-#include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/local/stream_protocol.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <boost/asio/streambuf.hpp>
 #include <chrono>
 #include <cstddef>
@@ -15,12 +13,10 @@
 #include <utility>
 
 #include "control/ask_served.hpp"
-#include "control/metrics_reports.hpp"
 
 namespace mavloom::control {
 
 using Local = asio::local::stream_protocol;
-using Tcp = asio::ip::tcp;
 using boost::system::error_code;
 
 // Records since when a session waits for its client, so that the acceptor can disconnect the longest idle client.
@@ -40,7 +36,7 @@ private:
     std::chrono::steady_clock::time_point since_ = std::chrono::steady_clock::now();
 };
 
-constexpr std::size_t longest_request = 64 * 1024, longest_http_header = 8 * 1024;
+constexpr std::size_t longest_request = 64 * 1024;
 
 // One client of the control socket. The session reads a request, writes the answer, and repeats.
 class ControlSession : public std::enable_shared_from_this<ControlSession> {
@@ -63,35 +59,6 @@ private:
     asio::streambuf input_{longest_request};
     Report report_;       // the answer that is being sent
     std::string output_;  // a piece of it
-};
-
-// One HTTP client. It has 5 s (http_patience) to send its request, and 5 s more to read the answer.
-class MetricsSession : public std::enable_shared_from_this<MetricsSession> {
-public:
-    MetricsSession(Tcp::socket socket, MetricsReports& reports)
-        : socket_(std::move(socket)), deadline_(socket_.get_executor()), reports_(reports) {}
-
-    void read();
-    void hang_up();
-    [[nodiscard]] const IdleTime& idle_time() const noexcept { return idle_time_; }
-    static void turn_away(Tcp::socket& socket);
-
-private:
-    struct Request;
-
-    void hang_up_later();
-    void handle();
-    void answer(const Request& request);
-    [[nodiscard]] bool is_host_of_this_machine(std::string_view host) const;
-    void write(const Request& request, std::string_view status, MetricsReports::Text body);
-
-    Tcp::socket socket_;
-    asio::steady_timer deadline_;
-    MetricsReports& reports_;
-    IdleTime idle_time_;
-    asio::streambuf input_{longest_http_header};
-    std::string head_;
-    MetricsReports::Text body_;
 };
 
 }  // namespace mavloom::control

@@ -9,7 +9,6 @@
 #include <optional>
 #include <string_view>
 
-#include "mavloom/base/shown.hpp"
 #include "mavloom/dialect/terms.hpp"
 #include "mavloom/message/builder.hpp"
 
@@ -125,18 +124,6 @@ SetupResult<void> add_remap(std::string_view text, Plan& plan) {
     return {};
 }
 
-SetupResult<void> set_sender(std::string_view from, Plan& plan) {
-    if (from.empty()) return {};
-    const auto slash = from.find('/');
-    const auto system = number<std::uint8_t>(from.substr(0, slash));
-    const auto component = slash == std::string_view::npos ? std::nullopt : number<std::uint8_t>(from.substr(slash + 1));
-    if (!system || (slash != std::string_view::npos && !component))
-        return usage(fmt::format("--from: {} is not SYS or SYS/COMP, numbers from 0 to 255, as in 1/1", in_quotes(from)));
-    plan.system = SystemId{*system};
-    if (component) plan.component = ComponentId{*component};
-    return {};
-}
-
 }  // namespace
 
 SystemMap identity_map() noexcept {
@@ -147,17 +134,8 @@ SystemMap identity_map() noexcept {
 
 SetupResult<Plan> make_plan(const dialect::Dialect& dialect, const Options& options) {
     Plan plan;
-    auto done = for_all_terms(options.only, "--only", [&](std::string_view name) -> SetupResult<void> {
-        const auto id = dialect::find_message_id(dialect, name);
-        if (!id) return tl::unexpected(id.error());
-        plan.only.push_back(id->value);
-        return {};
-    });
+    auto done = add_rates(dialect, options.max_rate, plan);
     if (!done) return tl::unexpected(std::move(done.error()));
-    std::sort(plan.only.begin(), plan.only.end());
-    if (done = set_sender(options.from, plan); !done) return tl::unexpected(std::move(done.error()));
-
-    if (done = add_rates(dialect, options.max_rate, plan); !done) return tl::unexpected(std::move(done.error()));
 
     done = for_all_terms(options.remap_system, "--remap-system",
                          [&](std::string_view term) { return add_remap(term, plan); });

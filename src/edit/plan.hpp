@@ -3,10 +3,8 @@
 // Private to the module edit. Building a plan allocates.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,20 +27,11 @@ using SystemMap = std::array<std::uint8_t, 256>;  // index: old system id; value
 [[nodiscard]] SystemMap identity_map() noexcept;
 
 struct Plan {
-    std::vector<std::uint32_t> only;  // by ascending id; empty: all messages
-    std::optional<SystemId> system;
-    std::optional<ComponentId> component;  // of `system`
-    std::vector<Patch> patches;            // by ascending id
+    std::vector<Patch> patches;  // by ascending id
     dialect::RateLimiter<WallTime> limiter;
     SystemMap forward = identity_map(), backward = identity_map();
     bool remaps = false;
     std::vector<std::string> warnings;  // rates that interfere with protocols
-
-    [[nodiscard]] bool admits(const wire::FrameView& frame) const noexcept {
-        if (system && frame.system() != *system) return false;
-        if (component && frame.component() != *component) return false;
-        return only.empty() || std::binary_search(only.begin(), only.end(), frame.id().value);
-    }
 };
 
 // Errors are `usage`; their text starts with the name of the option.

@@ -11,13 +11,17 @@ namespace mavloom::edit {
 class Stage::Impl {
 public:
     Impl(const dialect::Dialect& dialect, const Options& options, Plan plan)
-        : dialect_(&dialect), plan_(std::move(plan)), version_(options.as_version), resequences_(options.resequence) {
+        : dialect_(&dialect),
+          filter_(options.filter),
+          plan_(std::move(plan)),
+          version_(options.as_version),
+          resequences_(options.resequence) {
         if (options.sign_key) signer_.emplace(*options.sign_key, options.sign_link_id, options.sign_after);
     }
 
     Outcome forward(const wire::FrameView& frame, WallTime received, WallTime now) noexcept {
         counters_.frames.add();
-        if (!plan_.admits(frame)) return dropped(Verdict::filtered, counters_.filtered);
+        if (!filter_.admits(frame)) return dropped(Verdict::filtered, counters_.filtered);
         if (!plan_.limiter.admit(frame, received)) return dropped(Verdict::rate_limited, counters_.rate_limited);
         auto draft = Draft::of(frame, dialect_->find(frame.id()));
         if (!draft) return untouched(frame);
@@ -81,6 +85,7 @@ private:
     }
 
     const dialect::Dialect* dialect_;
+    const dialect::Filter filter_;
     Plan plan_;
     std::optional<wire::Version> version_;
     std::optional<wire::Signer> signer_;

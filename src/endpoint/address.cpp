@@ -8,6 +8,7 @@
 
 #include "mavloom/base/name.hpp"
 #include "mavloom/endpoint/grammar.hpp"
+#include "mavloom/net/address.hpp"
 
 namespace mavloom::endpoint {
 
@@ -55,12 +56,10 @@ AddressKind kind_of(const std::string& host) {
     return IN6_IS_ADDR_MULTICAST(&v6) ? AddressKind::multicast : AddressKind::other;
 }
 
-bool listens(Scheme scheme) { return scheme == Scheme::udpin || scheme == Scheme::tcpin; }
-
 std::string_view port_or_example(std::string_view port) { return port.empty() ? "14550" : port; }
 
 tl::unexpected<SetupError> missing_host(std::string_view scheme, std::string_view port) {
-    if (scheme == "udpin" || scheme == "tcpin")
+    if (const SchemeRow* const row = find_scheme(scheme); row != nullptr && row->side == Side::listens)
         return usage(fmt::format(
             "the address to listen on is missing; type {0}://127.0.0.1:{1} (this machine only) or {0}://0.0.0.0:{1} "
             "(every interface)",
@@ -177,30 +176,30 @@ SetupResult<HostPort> parse_host_port(std::string_view text, std::string_view sc
 }
 
 SetupResult<void> check_address(Scheme scheme, const HostPort& address) {
-    const auto name = scheme_name(scheme);
+    const SchemeRow& row = row_of(scheme);
     const auto kind = kind_of(address.host);
-    if (address.port == 0 && !listens(scheme))
-        return usage(fmt::format("port 0 is not a destination; {} needs a port from 1 to 65535", name));
-    if (scheme == Scheme::udpmcast) {
+    if (address.port == 0 && row.side != Side::listens)
+        return usage(fmt::format("port 0 is not a destination; {} needs a port from 1 to 65535", row.name));
+    if (row.cast == Cast::group) {
         if (kind == AddressKind::multicast) return {};
         return usage(fmt::format("{} is not a multicast group; for example, type udpmcast://239.255.145.50:{}",
                                  in_quotes(address.host), address.port));
     }
-    const bool udp = scheme != Scheme::tcpin && scheme != Scheme::tcpout;
+    const bool udp = row.carrier == Carrier::udp;
     if (kind == AddressKind::multicast)
         return usage(
             udp ? fmt::format("{} is a multicast group; type udpmcast://{}", in_quotes(address.host), to_text(address))
                 : fmt::format("{} is a multicast group; TCP needs the address of one machine", in_quotes(address.host)));
-    if (listens(scheme)) {
+    if (row.side == Side::listens) {
         if (kind != AddressKind::limited_broadcast) return {};
-        return usage(fmt::format("nothing can listen on 255.255.255.255; type {}://0.0.0.0:{}", name, address.port));
+        return usage(fmt::format("nothing can listen on 255.255.255.255; type {}://0.0.0.0:{}", row.name, address.port));
     }
     if (kind == AddressKind::any)
         return usage(
             fmt::format("{} is an address to listen on, not a destination; type {}://127.0.0.1:{} for this machine, "
                         "{}://{} to listen",
-                        to_text(address), name, address.port, udp ? "udpin" : "tcpin", to_text(address)));
-    if (scheme == Scheme::udpbcast) {
+                        to_text(address), row.name, address.port, row.counterpart, to_text(address)));
+    if (row.cast == Cast::broadcast) {
         if (address.host.find(':') == std::string::npos) return {};
         return usage(fmt::format("IPv6 has no broadcast; type udpmcast://[ff02::1]:{}", address.port));
     }
@@ -212,13 +211,21 @@ SetupResult<void> check_address(Scheme scheme, const HostPort& address) {
 
 SetupResult<void> check_path(Scheme scheme, std::string_view path) {
     if (printable(path) != path) return usage("a path must not contain control characters");
-    if (scheme == Scheme::shm) {
+    const Form form = row_of(scheme).form;
+    if (form == Form::address_and_path) {
+        if (!path.empty() && path.front() != '/')
+            return usage(fmt::format("the path {0} needs its slash; type /{0}", shown(path)));
+        if (path.find_first_of(" ?#%") == std::string_view::npos) return {};
+        return usage(fmt::format("the path {} has characters that a path here cannot have: blanks, ?, # and %",
+                                 in_quotes(path)));
+    }
+    if (form == Form::ring) {
         if (is_name(path)) return {};
         return usage(fmt::format(
             "{} is not a ring name (letters, digits, '_' and '-', at most 64); for example, type shm://main",
             in_quotes(path)));
     }
-    if (scheme == Scheme::tlog) {
+    if (form == Form::recording) {
         if (path.empty())
             return usage("the path is missing; for example, type tlog://flight.tlog or tlog:///tmp/flight.tlog");
         if (path.back() == '/') return usage(fmt::format("{} is a folder; a recording is a file", in_quotes(path)));
@@ -260,6 +267,20 @@ SetupResult<std::vector<OptionText>> split_query(std::string_view query) {
         if (end == std::string_view::npos) return options;
         query.remove_prefix(end + 1);
     }
+}
+
+SetupResult<HostPort> parse_server_address(std::string_view text) {
+    auto address = parse_host_port(text, {});
+    if (!address) return usage(fmt::format("{} is not HOST:PORT, as in 127.0.0.1:9090", in_quotes(text)));
+    if (auto good = check_server_address(*address); !good) return tl::unexpected(std::move(good.error()));
+    return address;
+}
+
+SetupResult<void> check_server_address(const HostPort& address) {
+    if (auto good = check_address(Scheme::tcpin, address); !good) return good;
+    if (net::Address::parse(address.host, address.port)) return {};
+    return usage(fmt::format("{} is not a numeric address of this machine; for example, type 127.0.0.1:{}",
+                             in_quotes(address.host), address.port));
 }
 
 }  // namespace mavloom::endpoint

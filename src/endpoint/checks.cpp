@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "mavloom/base/text.hpp"
+
 namespace mavloom::endpoint {
 
 static tl::unexpected<SetupError> refused(const Endpoint& endpoint, std::string_view text) {
@@ -13,13 +15,12 @@ static tl::unexpected<SetupError> refused(const Endpoint& endpoint, std::string_
 }
 
 static SetupResult<void> check_scheme(const Endpoint& endpoint, RoutingOptions routing) {
-    if (endpoint.scheme == Scheme::tlog)
+    if (endpoint.is_recording())
         return refused(endpoint, "a recording is not a link; listen, relay, record and replay read or write it");
-    if (endpoint.scheme == Scheme::shm && routing == RoutingOptions::by_owner)
-        return refused(
-            endpoint,
-            "a ring is not a link of a router; route --ring NAME writes a ring and forwards the frames sent to "
-            "its inlet; listen, relay and record read rings");
+    if (endpoint.is_ring() && routing == RoutingOptions::by_owner)
+        return refused(endpoint, fmt::format("a ring is not an endpoint of a router; --ring {} writes every frame into "
+                                             "it, and forwards what programs send there",
+                                             endpoint.path));
     return {};
 }
 
@@ -49,25 +50,25 @@ SetupResult<void> check_supported(const Endpoint& endpoint, RoutingOptions routi
     if (routing == RoutingOptions::refused)
         if (auto good = refuse_routing_options(endpoint); !good) return good;
     const EndpointOptions& o = endpoint.options;
-    if (endpoint.scheme == Scheme::shm && !o.verify_key_file.empty())
+    const Cast cast = endpoint.row().cast;
+    if (endpoint.is_ring() && !o.verify_key_file.empty())
         return refused(
             endpoint,
             "set verify= at the endpoint that receives the frames; the writer of the ring has already checked them");
-    if (o.ttl == 0 && endpoint.scheme != Scheme::udpmcast)
+    if (o.ttl == 0 && cast != Cast::group)
         return refused(endpoint,
                        "ttl=0 keeps datagrams of a multicast group on this machine; other datagrams need 1 to 255");
-    const bool is_one_link = endpoint.scheme == Scheme::udpmcast || (endpoint.scheme == Scheme::udpbcast && o.fixed);
+    const bool is_one_link = cast == Cast::group || (cast == Cast::broadcast && o.fixed);
     if (is_one_link && o.max_peers != EndpointOptions{}.max_peers)
         return refused(endpoint, "all senders that are heard here share one link, so max_peers= has no effect");
-    constexpr std::uint64_t most_queue_bytes = std::uint64_t{1} << 30;  // queue offsets have 32 bits
-    if (o.queue_bytes > most_queue_bytes) return refused(endpoint, "queue_bytes= goes up to 1 GiB");
+    constexpr std::uint64_t max_queue_bytes = std::uint64_t{1} << 30;  // queue offsets have 32 bits
+    if (o.queue_bytes > max_queue_bytes) return refused(endpoint, "queue_bytes= goes up to 1 GiB");
     return {};
 }
 
 SetupResult<void> check_destination(const Endpoint& endpoint) {
     const auto& [host, port] = endpoint.address;
-    const bool broadcast = endpoint.scheme == Scheme::udpbcast;
-    const bool udp = endpoint.scheme == Scheme::udpout || broadcast;
+    const SchemeRow& row = endpoint.row();
     if (host.empty()) return refused(endpoint, "a destination needs a host, as in 127.0.0.1");
     if (port == 0) return refused(endpoint, "port 0 is not a destination; give the port that the far side listens on");
     const auto address = net::Address::parse(host, port);
@@ -77,12 +78,12 @@ SetupResult<void> check_destination(const Endpoint& endpoint) {
             endpoint,
             fmt::format(
                 "{} is not a destination; to listen on all addresses type {}://{}, to send to this machine {}://{}:{}",
-                host, udp ? "udpin" : "tcpin", address->text(), udp ? "udpout" : "tcpout",
+                host, row.counterpart, address->text(), find_scheme(row.counterpart)->counterpart,
                 address->is_v4() ? "127.0.0.1" : "[::1]", port));
     }
     if (address->is_multicast())
         return refused(endpoint, fmt::format("{} is a multicast group: udpmcast://{}", host, address->text()));
-    if (address->is_broadcast() && !broadcast)
+    if (address->is_broadcast() && row.cast != Cast::broadcast)
         return refused(endpoint, fmt::format("{} is the broadcast address: udpbcast://{}", host, address->text()));
     return {};
 }
@@ -98,8 +99,7 @@ SetupResult<std::optional<net::Address>> local_address(const Endpoint& endpoint)
 
 SetupResult<void> check_link(const Endpoint& endpoint, RoutingOptions routing) {
     if (auto good = check_supported(endpoint, routing); !good) return good;
-    const auto scheme = endpoint.scheme;
-    if (scheme != Scheme::udpout && scheme != Scheme::udpbcast && scheme != Scheme::tcpout) return {};
+    if (!endpoint.calls() || endpoint.row().cast == Cast::group) return {};
     if (auto good = check_destination(endpoint); !good) return good;
     const auto local = local_address(endpoint);
     if (!local) return tl::unexpected(local.error());
@@ -119,21 +119,17 @@ struct OwnLog {
 constexpr OwnLog own_logs[] = {
     {".ulg",
      "this is PX4's own log (ULog), not a recording of MAVLink; ulog_info and ulog2csv of the Python package pyulog "
-     "read "
-     "it, and PlotJuggler shows it"},
+     "read it, and PlotJuggler shows it"},
     {".bin",
      "this is ArduPilot's own log (DataFlash), not a recording of MAVLink; mavlogdump.py of the Python package "
-     "pymavlink "
-     "reads it, and MAVExplorer or PlotJuggler show it"},
+     "pymavlink reads it, and MAVExplorer or PlotJuggler show it"},
 };
 
 }  // namespace
 
 SetupResult<void> check_recording_name(std::string_view path) {
-    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
     for (const auto& [suffix, error] : own_logs)
-        if (path.size() > suffix.size() &&
-            std::ranges::equal(path.substr(path.size() - suffix.size()), suffix, {}, lower))
+        if (path.size() > suffix.size() && same_letters(path.substr(path.size() - suffix.size()), suffix))
             return setup_error(SetupCode::usage, std::string(error));
     return {};
 }

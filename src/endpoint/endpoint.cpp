@@ -15,8 +15,11 @@ namespace mavloom::endpoint {
 
 namespace {
 
-constexpr std::array<std::string_view, 9> spellings{"udpin",  "udpout", "udpbcast", "udpmcast", "tcpin",
-                                                    "tcpout", "serial", "shm",      "tlog"};
+constexpr auto spellings = [] {
+    std::array<std::string_view, scheme_rows.size()> names;
+    std::ranges::transform(scheme_rows, names.begin(), &SchemeRow::name);
+    return names;
+}();
 
 // Schemes of other programs, and what to use instead. `udp:` is ambiguous: it listens in pymavlink, but sends in
 // other programs.
@@ -36,6 +39,12 @@ constexpr std::array foreign_schemes{
     Foreign{"tcps", "is written tcpin://{0}"},
     Foreign{"tcpclient", "is written tcpout://{1}"},
     Foreign{"tcpc", "is written tcpout://{1}"},
+    Foreign{"ws", "does not state which side listens; type wsout://{1} to connect, wsin://{0} to listen"},
+    Foreign{"wsserver", "is written wsin://{0}"},
+    Foreign{
+        "wss",
+        "needs TLS, which Mavloom leaves to a proxy: let nginx or stunnel forward to wsin://127.0.0.1:PORT, or call "
+        "one from wsout:// (docs/guide/endpoints.md#websocket)"},
     Foreign{"udpb", "is written udpbcast://{1}"},
     Foreign{"mcast", "is written udpmcast://239.255.145.50:14550"},
     Foreign{"uart", "is written serial:///dev/ttyACM0?baud=57600"},
@@ -65,6 +74,8 @@ struct Split {
 // Fills in the advice for "udp://:14540", with the host and port that the user typed, if any.
 std::string advice_for(std::string_view advice, std::string_view rest) {
     while (!rest.empty() && rest.front() == '/') rest.remove_prefix(1);
+    const auto path = rest.substr(std::min(rest.find('/'), rest.size()));  // of ws://HOST:PORT/PATH
+    rest.remove_suffix(path.size());
     const auto colon = rest.rfind(':');
     const auto host = colon == std::string_view::npos ? std::string_view{} : rest.substr(0, colon);
     const auto tail = colon == std::string_view::npos ? rest : rest.substr(colon + 1);
@@ -72,17 +83,15 @@ std::string advice_for(std::string_view advice, std::string_view rest) {
     const auto port = has_port ? tail : std::string_view("14550");
     const auto given = !host.empty() ? host : has_port ? std::string_view{} : rest;
     const bool anywhere = given.empty() || given == "0.0.0.0" || given == "[::]";
-    const std::string listening = fmt::format("{}:{}", given.empty() ? "0.0.0.0" : shown(given), port);
-    const std::string calling = fmt::format("{}:{}", anywhere ? "HOST" : shown(given), port);
+    const std::string listening = fmt::format("{}:{}{}", given.empty() ? "0.0.0.0" : shown(given), port, shown(path));
+    const std::string calling = fmt::format("{}:{}{}", anywhere ? "HOST" : shown(given), port, shown(path));
     return fmt::format(fmt::runtime(advice), listening, calling);
 }
 
 tl::unexpected<SetupError> unknown_scheme(std::string_view scheme, std::string_view rest) {
     for (const Foreign& foreign : foreign_schemes)
         if (foreign.scheme == scheme) return usage(fmt::format("'{}' {}", scheme, advice_for(foreign.advice, rest)));
-    auto hint = did_you_mean(scheme, spellings);
-    if (hint.empty()) hint = fmt::format("; there are {}", fmt::join(spellings, ", "));
-    return usage(fmt::format("there is no scheme {}{}", in_quotes(scheme), hint));
+    return tl::unexpected(std::move(parse_scheme(scheme).error()));
 }
 
 // True if `text` begins with SCHEME://, known or not.
@@ -125,7 +134,7 @@ tl::unexpected<SetupError> no_scheme(std::string_view text, std::string_view que
     const auto colon = text.find(':');
     if (colon != std::string_view::npos && colon != 0) {
         const auto prefix = text.substr(0, colon);
-        if (std::find(spellings.begin(), spellings.end(), prefix) != spellings.end())
+        if (find_scheme(prefix) != nullptr)
             return usage(fmt::format("the slashes are missing; type {}://{}", prefix, shown(text.substr(colon + 1))));
         return unknown_scheme(prefix, text.substr(colon + 1));
     }
@@ -141,10 +150,10 @@ tl::unexpected<SetupError> no_scheme(std::string_view text, std::string_view que
 SetupResult<Split> split_url(Split result, std::string_view text) {
     const auto slashes = text.find("://");
     const auto scheme = text.substr(0, slashes);
-    const auto found = std::ranges::find(spellings, scheme);
+    const SchemeRow* const found = find_scheme(scheme);
     result.rest.remove_prefix(slashes + 3);
-    if (found == spellings.end()) return unknown_scheme(scheme, result.rest);
-    result.scheme = static_cast<Scheme>(found - spellings.begin());
+    if (found == nullptr) return unknown_scheme(scheme, result.rest);
+    result.scheme = found->scheme;
     return result;
 }
 
@@ -184,8 +193,15 @@ SetupResult<Split> split(std::string_view text) {
 }
 
 SetupResult<void> set_place(Endpoint& endpoint, const Split& parts) {
-    if ((set_of(endpoint.scheme) & address_schemes) != 0) {
-        auto address = parse_host_port(parts.rest, scheme_name(endpoint.scheme));
+    if (endpoint.has_address()) {
+        auto rest = parts.rest;
+        if (endpoint.row().form == Form::address_and_path) {
+            const auto slash = std::min(rest.find('/'), rest.size());
+            endpoint.path = std::string(rest.substr(slash));
+            rest = rest.substr(0, slash);
+            if (auto good = check_path(endpoint.scheme, endpoint.path); !good) return good;
+        }
+        auto address = parse_host_port(rest, scheme_name(endpoint.scheme));
         if (!address) return tl::unexpected(std::move(address.error()));
         endpoint.address = std::move(*address);
         return check_address(endpoint.scheme, endpoint.address);
@@ -229,21 +245,26 @@ SetupResult<Endpoint> parse(std::string_view text) {
 
 }  // namespace
 
-std::string ring_is_no_endpoint(const Endpoint& endpoint) {
-    return fmt::format(
-        "{}: a ring is not an endpoint of a router; --ring {} writes every frame into it, and forwards what "
-        "programs send there",
-        endpoint.label(), endpoint.path);
+std::string schemes_text(Side side) {
+    std::vector<std::string> names;
+    for (const SchemeRow& row : scheme_rows)
+        if (row.side == side) names.push_back(fmt::format("{}://", row.name));
+    const std::string last = std::move(names.back());
+    names.pop_back();
+    return names.empty() ? last : fmt::format("{} or {}", fmt::join(names, ", "), last);
 }
 
-bool sends_first(Scheme scheme) noexcept {
-    return scheme == Scheme::udpout || scheme == Scheme::udpbcast || scheme == Scheme::udpmcast ||
-           scheme == Scheme::tcpout || scheme == Scheme::serial;
+std::string form_of(const SchemeRow& row) {
+    constexpr std::array<std::string_view, 5> forms{"HOST:PORT", "HOST:PORT[/PATH]", "/dev/NAME", "NAME", "PATH"};
+    return fmt::format("{}://{}", row.name, forms[static_cast<std::size_t>(row.form)]);
 }
 
-std::string_view scheme_name(Scheme scheme) noexcept { return spellings[static_cast<std::size_t>(scheme)]; }
-
-std::span<const std::string_view> scheme_names() noexcept { return spellings; }
+SetupResult<Scheme> parse_scheme(std::string_view name) {
+    if (const SchemeRow* const row = find_scheme(name)) return row->scheme;
+    auto hint = did_you_mean(name, spellings);
+    if (hint.empty()) hint = fmt::format("; there are {}", fmt::join(spellings, ", "));
+    return usage(fmt::format("there is no scheme {}{}", in_quotes(name), hint));
+}
 
 std::optional<std::string_view> query_of(std::string_view endpoint) {
     const auto question = endpoint.find('?');
@@ -271,8 +292,7 @@ std::filesystem::path canonical_path(const std::filesystem::path& path) {
 
 std::string Endpoint::label() const {
     if (!options.name.empty()) return options.name;
-    const bool has_address = (set_of(scheme) & address_schemes) != 0;
-    return fmt::format("{}://{}", scheme_name(scheme), has_address ? to_text(address) : path);
+    return fmt::format("{}://{}{}", row().name, has_address() ? to_text(address) : "", path);
 }
 
 SetupResult<Endpoint> parse_endpoint(std::string_view text) {
@@ -280,6 +300,17 @@ SetupResult<Endpoint> parse_endpoint(std::string_view text) {
     if (!endpoint)
         return tl::unexpected(std::move(endpoint.error()).within(fmt::format("endpoint {}", in_quotes(text))));
     return endpoint;
+}
+
+SetupResult<std::vector<Endpoint>> parse_endpoints(std::span<const std::string> texts, std::string_view option) {
+    std::vector<Endpoint> endpoints;
+    for (const auto& text : texts) {
+        auto endpoint = parse_endpoint(text);
+        if (!endpoint && option.empty()) return tl::unexpected(std::move(endpoint.error()));
+        if (!endpoint) return tl::unexpected(std::move(endpoint.error()).within(option));
+        endpoints.push_back(std::move(*endpoint));
+    }
+    return endpoints;
 }
 
 }  // namespace mavloom::endpoint

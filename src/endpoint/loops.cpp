@@ -24,8 +24,8 @@ bool is_own_name(const std::string& host) {
 bool hears(const std::string& bound, const std::string& host, bool broadcast) {
     const auto here = net::Address::parse(bound == "localhost" ? "127.0.0.1" : bound, 0);
     const auto there = net::Address::parse(host == "localhost" ? "127.0.0.1" : host, 0);
-    if (!here) return bound == host;  // only a look-up finds the address of a name
-    if (!there) return is_own_name(host);
+    if (!here) return bound == host;                         // only a look-up finds the address of a name
+    if (!there) return here->is_any() && is_own_name(host);  // Debian's look-up of its own name finds 127.0.1.1
     if (!here->is_any()) return *here == *there;
     if (here->is_v4() && !there->is_v4()) return false;
     return broadcast || there->is_loopback() || net::OwnAddresses().contains(*there, mono_now());
@@ -34,19 +34,20 @@ bool hears(const std::string& bound, const std::string& host, bool broadcast) {
 }  // namespace
 
 bool leads_back(const Endpoint& source, std::uint16_t port, const Endpoint& to) {
-    const bool broadcast = to.scheme == Scheme::udpbcast;
-    const bool same_kind = (source.scheme == Scheme::udpin && (to.scheme == Scheme::udpout || broadcast)) ||
-                           (source.scheme == Scheme::tcpin && to.scheme == Scheme::tcpout);
-    return same_kind && port == to.address.port && hears(source.address.host, to.address.host, broadcast);
+    if (source.is_ring()) return to.is_ring() && to.path == source.path;
+    const bool broadcast = to.row().cast == Cast::broadcast;
+    return source.listens() && to.row().counterpart == source.row().name && port == to.address.port &&
+           hears(source.address.host, to.address.host, broadcast);
 }
 
 static bool calls(const Endpoint& from, const Endpoint& source) {
-    return from.scheme != Scheme::udpbcast && leads_back(source, source.address.port, from);
+    return from.row().cast == Cast::one && leads_back(source, source.address.port, from);
 }
 
 SetupResult<void> check_not_called(const Endpoint& a, const Endpoint& b) {
-    if (!calls(a, b) && !calls(b, a)) return {};
-    const Endpoint &caller = calls(a, b) ? a : b, &listener = calls(a, b) ? b : a;
+    const bool a_calls_b = calls(a, b);
+    if (!a_calls_b && !calls(b, a)) return {};
+    const Endpoint &caller = a_calls_b ? a : b, &listener = a_calls_b ? b : a;
     return setup_error(SetupCode::usage,
                        fmt::format("{} is where {} listens: the router would send to itself; choose another port",
                                    caller.label(), listener.label()));

@@ -9,6 +9,7 @@
 
 #include "mavloom/base/name.hpp"
 #include "mavloom/base/suggest.hpp"
+#include "mavloom/dialect/terms.hpp"
 #include "mavloom/endpoint/grammar.hpp"
 
 namespace mavloom::endpoint {
@@ -19,7 +20,7 @@ using Set = SetupResult<void> (*)(EndpointOptions&, std::string_view);
 
 struct Option {
     std::string_view name;
-    SchemeSet schemes;
+    OptionKinds kind;
     std::string_view default_text;  // as `check` shows it; empty: not set
     Set set;
 };
@@ -69,8 +70,8 @@ SetupResult<void> set_group_mode(EndpointOptions& options, std::string_view text
 
 constexpr std::uint64_t longest_frame_bytes = 280;  // MAVLink 2, 255 payload bytes, signed
 constexpr std::uint64_t longest_datagram_bytes = 65507;
-constexpr std::uint64_t most_queue_bytes = std::uint64_t{1} << 40;
-constexpr std::uint64_t most_rcvbuf_bytes = std::numeric_limits<std::int32_t>::max();  // SO_RCVBUF is an int
+constexpr std::uint64_t max_queue_bytes = std::uint64_t{1} << 40;
+constexpr std::uint64_t max_rcvbuf_bytes = std::numeric_limits<std::int32_t>::max();  // SO_RCVBUF is an int
 
 SetupResult<void> set_mtu(EndpointOptions& options, std::string_view text) {
     const auto size = parse_size(text);
@@ -128,9 +129,9 @@ SetupResult<void> set_learn(EndpointOptions& options, std::string_view text) {
 SetupResult<void> set_heartbeat(EndpointOptions& options, std::string_view text) {
     if (text.find('/') != std::string_view::npos)
         return usage(
-            fmt::format("{} is neither true nor false; the id of a router is heartbeat = \"SYS/COMP\" "
-                        "in [router] of its configuration file",
-                        in_quotes(text)));
+            fmt::format("{0} is neither true nor false; for the id of the router, type --heartbeat {1}, or heartbeat = "
+                        "\"{1}\" in [router]",
+                        in_quotes(text), shown(text)));
     return put(parse_bool(text), options.heartbeat);
 }
 
@@ -138,75 +139,83 @@ SetupResult<void> set_bind(EndpointOptions& options, std::string_view text) {
     return put(parse_host_port(text, {}), options.bind);
 }
 
+// An origin as a browser sends it: scheme, host and port, without a path.
+bool is_origin(std::string_view text) {
+    const auto slashes = text.find("://");
+    return text == "*" || ((text.starts_with("http://") || text.starts_with("https://")) && text.size() > slashes + 3 &&
+                           text.find('/', slashes + 3) == std::string_view::npos);
+}
+
+SetupResult<void> set_origin(EndpointOptions& options, std::string_view text) {
+    return put(parse_origins(text), options.origins);
+}
+
 using O = EndpointOptions;
 
-constexpr SchemeSet serial = set_of(Scheme::serial);
-constexpr SchemeSet shm = set_of(Scheme::shm);
-constexpr SchemeSet tlog = set_of(Scheme::tlog);
-constexpr SchemeSet links = address_schemes | serial | shm;
-constexpr SchemeSet all = links | tlog;
-
 constexpr std::array options_table{
-    Option{"name", all, "", set_text<&O::name>},
-    Option{"group", links, "", set_group},
-    Option{"group_mode", links, "all", set_group_mode},
-    Option{"mtu", udp_schemes, "1280", set_mtu},
-    Option{"idle", address_schemes, "",
+    Option{"name", takes::any, "", set_text<&O::name>},
+    Option{"group", takes::link, "", set_group},
+    Option{"group_mode", takes::link, "all", set_group_mode},
+    Option{"mtu", takes::datagrams, "1280", set_mtu},
+    Option{"idle", takes::address, "",
            [](O& o, std::string_view t) {
                return put(
                    duration_of_at_least(t, std::chrono::milliseconds{1}, "type a long time, such as 1000h, for never"),
                    o.idle);
            }},
-    Option{"queue_bytes", links, "1MiB",
+    Option{"queue_bytes", takes::link, "1MiB",
            [](O& o, std::string_view t) {
-               return put(size_within(t, longest_frame_bytes, most_queue_bytes), o.queue_bytes);
+               return put(size_within(t, longest_frame_bytes, max_queue_bytes), o.queue_bytes);
            }},
-    Option{"queue_age", links, "1s for telemetry, 10s for the others",
+    Option{"queue_age", takes::link, "1s for telemetry, 10s for the others",
            [](O& o, std::string_view t) {
                return put(duration_of_at_least(t, std::chrono::milliseconds{1}, "the minimum is 1 ms"), o.queue_age);
            }},
-    Option{"max_rate", links, "", [](O& o, std::string_view t) { return put(parse_rates(t), o.max_rate); }},
-    Option{"max_bytes", links, "",
+    Option{"max_rate", takes::link, "", [](O& o, std::string_view t) { return put(parse_rates(t), o.max_rate); }},
+    Option{"max_bytes", takes::link, "",
            [](O& o, std::string_view t) {
-               return put(size_within(t, longest_frame_bytes, most_queue_bytes), o.max_bytes_per_s);
+               return put(size_within(t, longest_frame_bytes, max_queue_bytes), o.max_bytes_per_s);
            }},
-    Option{"in_allow", links, "", set_filter<&O::in_allow>},
-    Option{"in_block", links, "", set_filter<&O::in_block>},
-    Option{"out_allow", links, "", set_filter<&O::out_allow>},
-    Option{"out_block", links, "", set_filter<&O::out_block>},
-    Option{"tap", links, "false", set_flag<&O::tap>},
-    Option{"private", links, "false", set_flag<&O::is_private>},
-    Option{"heartbeat", links, "", set_heartbeat},
-    Option{"sign", links, "", set_text<&O::sign_key_file>},
-    Option{"verify", links, "", set_text<&O::verify_key_file>},
-    Option{"rcvbuf", udp_schemes, "32MiB",
-           [](O& o, std::string_view t) { return put(size_within(t, 4096, most_rcvbuf_bytes), o.rcvbuf_bytes); }},
-    Option{"max_peers",
-           set_of(Scheme::udpin) | set_of(Scheme::udpbcast) | set_of(Scheme::udpmcast) | set_of(Scheme::tcpin), "256",
+    Option{"in_allow", takes::link, "", set_filter<&O::in_allow>},
+    Option{"in_block", takes::link, "", set_filter<&O::in_block>},
+    Option{"out_allow", takes::link, "", set_filter<&O::out_allow>},
+    Option{"out_block", takes::link, "", set_filter<&O::out_block>},
+    Option{"tap", takes::link, "false", set_flag<&O::tap>},
+    Option{"private", takes::link, "false", set_flag<&O::is_private>},
+    Option{"heartbeat", takes::link, "", set_heartbeat},
+    Option{"sign", takes::link, "", set_text<&O::sign_key_file>},
+    Option{"sign_all", takes::link, "false", set_flag<&O::signs_own>},
+    Option{"verify", takes::link, "", set_text<&O::verify_key_file>},
+    Option{"rcvbuf", takes::datagrams, "32MiB",
+           [](O& o, std::string_view t) { return put(size_within(t, 4096, max_rcvbuf_bytes), o.rcvbuf_bytes); }},
+    Option{"max_peers", takes::peers, "256",
            [](O& o, std::string_view t) { return put(parse_integer(t, 1, 1'000'000), o.max_peers); }},
-    Option{"iface", udp_schemes, "",
+    Option{"iface", takes::datagrams, "",
            [](O& o, std::string_view t) -> SetupResult<void> {
                if (t.size() > 15)
                    return usage(
                        fmt::format("{} is longer than the name of an interface can be (15 bytes)", in_quotes(t)));
                return set_text<&O::iface>(o, t);
            }},
-    Option{"ttl", udp_schemes, "", [](O& o, std::string_view t) { return put(parse_integer(t, 0, 255), o.ttl); }},
-    Option{"learn", links, "consistent", set_learn},
-    Option{"trusted", set_of(Scheme::udpin) | set_of(Scheme::udpbcast), "false", set_flag<&O::trusted>},
-    Option{"low_latency", address_schemes | serial, "false", set_flag<&O::low_latency>},
-    Option{"required", links, "false", set_flag<&O::required>},
-    Option{"reuse", set_of(Scheme::udpin), "false", set_flag<&O::reuse>},
-    Option{"bind", set_of(Scheme::udpout) | set_of(Scheme::udpbcast) | set_of(Scheme::tcpout), "", set_bind},
-    Option{"fixed", set_of(Scheme::udpbcast), "false", set_flag<&O::fixed>},
-    Option{"baud", serial, "57600", set_baud},
-    Option{"flow", serial, "none", set_flow},
-    Option{"from", shm, "newest", set_from},
-    Option{"lossless", shm, "", [](O& o, std::string_view t) { return put(parse_bool(t), o.lossless); }},
-    Option{"foreign", shm, "false", set_flag<&O::foreign>},
-    Option{"speed", tlog, "", set_speed},
-    Option{"rotate_bytes", tlog, "", [](O& o, std::string_view t) { return put(parse_rotate_bytes(t), o.rotate_bytes); }},
-    Option{"rotate_every", tlog, "", [](O& o, std::string_view t) { return put(parse_rotate_every(t), o.rotate_every); }},
+    Option{"ttl", takes::datagrams, "", [](O& o, std::string_view t) { return put(parse_integer(t, 0, 255), o.ttl); }},
+    Option{"learn", takes::link, "consistent", set_learn},
+    Option{"trusted", takes::peers, "", [](O& o, std::string_view t) { return put(parse_bool(t), o.trusted); }},
+    Option{"low_latency", takes::low_latency, "false", set_flag<&O::low_latency>},
+    Option{"required", takes::link, "false", set_flag<&O::required>},
+    Option{"reuse", takes::reuse, "false", set_flag<&O::reuse>},
+    Option{"bind", takes::bind, "", set_bind},
+    Option{"fixed", takes::fixed, "false", set_flag<&O::fixed>},
+    Option{"origin", takes::origin, "", set_origin},
+    Option{"baud", takes::device, "57600", set_baud},
+    Option{"flow", takes::device, "none", set_flow},
+    Option{"from", takes::ring, "newest", set_from},
+    Option{"lossless", takes::ring, "", [](O& o, std::string_view t) { return put(parse_bool(t), o.lossless); }},
+    Option{"foreign", takes::ring, "false", set_flag<&O::foreign>},
+    Option{"speed", takes::recording, "", set_speed},
+    Option{"rotate_bytes", takes::recording, "",
+           [](O& o, std::string_view t) { return put(parse_rotate_bytes(t), o.rotate_bytes); }},
+    Option{"rotate_every", takes::recording, "",
+           [](O& o, std::string_view t) { return put(parse_rotate_every(t), o.rotate_every); }},
 };
 
 constexpr auto option_names = [] {
@@ -221,11 +230,25 @@ const Option* find_option(std::string_view name) {
     return option == options_table.end() ? nullptr : &*option;
 }
 
-std::string schemes_text(SchemeSet schemes) {
+bool takes_option(Scheme scheme, const Option& option) noexcept { return (row_of(scheme).options & option.kind) != 0; }
+
+std::string schemes_with(const Option& option) {
     std::vector<std::string_view> names;
-    for (std::size_t i = 0; i < scheme_names().size(); ++i)
-        if ((schemes >> i & 1u) != 0) names.push_back(scheme_names()[i]);
+    for (const SchemeRow& row : scheme_rows)
+        if ((row.options & option.kind) != 0) names.push_back(row.name);
     return fmt::format("{}", fmt::join(names, ", "));
+}
+
+// A hint for an unknown option: the nearest one, even if the scheme does not take it. Of two that are as near, one that
+// the scheme takes.
+std::string option_hint(Scheme scheme, std::string_view typed) {
+    auto names = option_names_for(scheme);
+    names.insert(names.end(), option_names.begin(), option_names.end());
+    const auto meant = nearest(typed, names);
+    if (meant.empty()) return {};
+    const Option& option = *find_option(meant);
+    if (takes_option(scheme, option)) return fmt::format(", did you mean '{}'?", meant);
+    return fmt::format("; '{}' belongs to {}, not to {}", meant, schemes_with(option), scheme_name(scheme));
 }
 
 // The option of `mavloom route` that sets a key of [router].
@@ -238,9 +261,9 @@ std::string option_of_key(std::string_view key) {
 // A hint for a key of [router] that was given as an endpoint option. It recognises the exact name, a near miss, and a
 // unique prefix ("dedup").
 std::string router_key_hint(std::string_view typed) {
-    constexpr std::size_t least_beginning = 4;
+    constexpr std::size_t min_beginning = 4;
     auto meant = nearest(typed, router_keys);
-    if (meant.empty() && typed.size() >= least_beginning) {
+    if (meant.empty() && typed.size() >= min_beginning) {
         const auto begins = [&](std::string_view n) { return n.starts_with(typed); };
         if (std::ranges::count_if(router_keys, begins) == 1) meant = *std::ranges::find_if(router_keys, begins);
     }
@@ -250,16 +273,30 @@ std::string router_key_hint(std::string_view typed) {
 
 }  // namespace
 
+SetupResult<std::vector<std::string>> parse_origins(std::string_view text) {
+    std::vector<std::string> origins;
+    auto parsed = dialect::for_each_term(text, [&](std::string_view term) -> SetupResult<void> {
+        if (term.ends_with('/')) term.remove_suffix(1);  // as browsers show it
+        if (!is_origin(term) || printable(term) != term)
+            return usage(fmt::format(
+                "{} is not the origin of a web page, such as https://app.example.com; * allows all", in_quotes(term)));
+        origins.emplace_back(term);
+        return {};
+    });
+    if (!parsed) return tl::unexpected(std::move(parsed.error()));
+    return origins;
+}
+
 std::vector<std::string_view> option_names_for(Scheme scheme) {
     std::vector<std::string_view> names;
     for (const Option& option : options_table)
-        if ((option.schemes & set_of(scheme)) != 0) names.push_back(option.name);
+        if (takes_option(scheme, option)) names.push_back(option.name);
     return names;
 }
 
 std::string_view default_option_text(Scheme scheme, std::string_view name) noexcept {
     // TCP clients have no default.
-    if (name == "idle" && (set_of(scheme) & udp_schemes) != 0) return "60";
+    if (name == "idle" && row_of(scheme).carrier == Carrier::udp) return "60";
     const Option* const option = find_option(name);
     return option == nullptr ? std::string_view{} : option->default_text;
 }
@@ -280,15 +317,16 @@ std::span<const std::string_view> endpoint_option_names() noexcept { return opti
 SetupResult<void> set_endpoint_option(Endpoint& endpoint, std::string_view key, std::string_view value) {
     const Option* const option = find_option(key);
     if (option == nullptr) {
-        const auto names = option_names_for(endpoint.scheme);
-        auto hint = did_you_mean(key, names);
+        auto hint = option_hint(endpoint.scheme, key);
         if (hint.empty()) hint = router_key_hint(key);
-        if (hint.empty()) hint = fmt::format("; {} takes {}", scheme_name(endpoint.scheme), fmt::join(names, ", "));
+        if (hint.empty())
+            hint = fmt::format("; {} takes {}", scheme_name(endpoint.scheme),
+                               fmt::join(option_names_for(endpoint.scheme), ", "));
         return usage(fmt::format("there is no option {}{}", in_quotes(key), hint));
     }
-    if ((option->schemes & set_of(endpoint.scheme)) == 0)
+    if (!takes_option(endpoint.scheme, *option))
         return usage(fmt::format("{} does not take the option '{}' ({})", scheme_name(endpoint.scheme), key,
-                                 "it belongs to " + schemes_text(option->schemes)));
+                                 "it belongs to " + schemes_with(*option)));
     auto done = option->set(endpoint.options, value);
     if (!done) return tl::unexpected(std::move(done.error()).within(fmt::format("option '{}'", key)));
     return {};
@@ -298,6 +336,8 @@ SetupResult<void> check_options(const Endpoint& endpoint) {
     const EndpointOptions& o = endpoint.options;
     if (o.has_group_mode && o.group.empty())
         return usage("group_mode= has no effect without group=NAME, the name of a group of redundant links");
+    if (o.signs_own && o.sign_key_file.empty())
+        return usage("sign_all= has no effect without sign=KEYFILE, the key to sign with");
     if (o.tap && o.heartbeat)
         return usage(
             "heartbeat= and tap=true exclude each other: a tap gets the frames of other links, and the router sends it "

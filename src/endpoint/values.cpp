@@ -152,6 +152,18 @@ SetupResult<FilterTerms> parse_filter(std::string_view text) {
     return terms;
 }
 
+SetupResult<FilterTerms> parse_sender(std::string_view text) {
+    const auto slash = text.find('/');
+    const bool has_component = slash != std::string_view::npos;
+    const auto system = parse_integer(text.substr(0, slash), 0, 255);
+    const auto component = parse_integer(has_component ? text.substr(slash + 1) : "0", 0, 255);
+    if (!system || !component)
+        return usage(fmt::format("{} is not SYS or SYS/COMP, numbers from 0 to 255, as in 1/1", in_quotes(text)));
+    FilterTerms terms{.systems = {static_cast<std::uint8_t>(*system)}};
+    if (has_component) terms.components.push_back(static_cast<std::uint8_t>(*component));
+    return terms;
+}
+
 SetupResult<std::vector<RateTerm>> parse_rates(std::string_view text) {
     std::vector<RateTerm> terms;
     const auto done = dialect::for_each_term(text, [&](std::string_view part) -> SetupResult<void> {

@@ -44,7 +44,7 @@ void Channel::on_frame(const link::RxFrame& rx, MonoTime now) {
     newest_.put(key, head, rx.frame, now);
     if (target_.system.value == 0 && is_vehicle_heartbeat(rx.frame)) target_ = rx.frame.source();
     for (auto* reader : readers_)
-        if (reader->armed_ && reader->filter_.takes(rx.frame)) reader->due_ = true;
+        if (reader->armed_ && reader->filter_.admits(rx.frame)) reader->due_ = true;
     for (const auto& recorder : recorders_) recorder->record(rx.time, rx.link, rx.frame);
 }
 
@@ -62,12 +62,12 @@ void Channel::forget_link(LinkId link, std::span<const wire::SequenceStats> loss
     const auto name = names_->find(link);
     names_->gone(link);
     const std::lock_guard lock(mutex_);
-    for (const auto& stats : losses) add_to(losses_, losses_.size() < most_losses ? name : std::string(), stats);
+    for (const auto& stats : losses) add_to(losses_, losses_.size() < max_losses ? name : std::string(), stats);
 }
 
 void Channel::on_bad_checksum(MessageId id) {
     const std::lock_guard lock(mutex_);
-    if (bad_ids_.size() < most_bad_ids || bad_ids_.contains(id)) ++bad_ids_[id];
+    if (bad_ids_.size() < max_bad_ids || bad_ids_.contains(id)) ++bad_ids_[id];
 }
 
 void Channel::publish() {
@@ -79,9 +79,9 @@ void Channel::publish() {
     changed_.notify_all();
 }
 
-void Channel::look_after_recorders() {
+void Channel::maintain_recorders() {
     const std::lock_guard lock(mutex_);
-    for (const auto& recorder : recorders_) recorder->look_after();
+    for (const auto& recorder : recorders_) recorder->maintain();
 }
 
 void Channel::close() {
@@ -119,7 +119,7 @@ bool Channel::has_room() {
     return !full_;
 }
 
-void Channel::look_for_room() {
+void Channel::notify_of_room() {
     if (!full_ || (holder_ != nullptr && !ring_.has_room(holder_->at_, frames_a_turn))) return;
     full_ = false;
     if (room_made_) room_made_();
@@ -128,12 +128,13 @@ void Channel::look_for_room() {
 void Channel::end_hold(const ChannelReader* reader) {
     if (holder_ != reader) return;
     holder_ = nullptr;
-    look_for_room();
+    notify_of_room();
 }
 
 // ---- any thread
 
-std::optional<NewestFrames::Entry> Channel::latest(const Filter& filter, const std::optional<Instance>& instance,
+std::optional<NewestFrames::Entry> Channel::latest(const dialect::Filter& filter,
+                                                   const std::optional<message::Instance>& instance,
                                                    MonoTime not_before) const {
     const std::lock_guard lock(mutex_);
     const auto* const newest = newest_.find(filter, instance, not_before);
@@ -164,7 +165,7 @@ Source Channel::target() const {
 
 // ---- ChannelReader
 
-ChannelReader::ChannelReader(std::shared_ptr<Channel> channel, Filter filter)
+ChannelReader::ChannelReader(std::shared_ptr<Channel> channel, dialect::Filter filter)
     : channel_(std::move(channel)), filter_(std::move(filter)) {
     const std::lock_guard lock(channel_->mutex_);
     at_ = channel_->ring_.newest();
@@ -186,10 +187,10 @@ bool ChannelReader::take(FrameBatch& batch, std::size_t most) {
     if (closed()) return false;
     FrameRing::Head head;
     wire::FrameView frame;
-    std::size_t looked_at = 0;
-    while (batch.size() < most && looked_at < most_looked_at && channel_->ring_.next(at_, missed_, head, frame)) {
-        ++looked_at;
-        if (filter_.takes(frame))
+    std::size_t examined = 0;
+    while (batch.size() < most && examined < max_examined && channel_->ring_.next(at_, missed_, head, frame)) {
+        ++examined;
+        if (filter_.admits(frame))
             batch.add({.time_ns = head.time_ns,
                        .definition = channel_->dialect().find(frame.id()),
                        .link = head.link,
@@ -197,7 +198,7 @@ bool ChannelReader::take(FrameBatch& batch, std::size_t most) {
                       frame);
     }
     seen_ = at_.frame;
-    if (channel_->holder_ == this) channel_->look_for_room();
+    if (channel_->holder_ == this) channel_->notify_of_room();
     if (batch.size() != 0) return true;
     armed_ = true;
     if (seen_ != channel_->ring_.newest().frame) signal();

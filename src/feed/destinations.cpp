@@ -18,7 +18,7 @@ SetupResult<Destinations> Destinations::open(std::span<const endpoint::Endpoint>
     Destinations all(links);
     for (const bool opens_files : {false, true})
         for (const auto& endpoint : endpoints) {
-            if ((endpoint.scheme == endpoint::Scheme::tlog) != opens_files) continue;
+            if (endpoint.is_recording() != opens_files) continue;
             auto added = opens_files ? all.add_file(endpoint, on_file) : all.add_link(endpoint);
             if (!added) return tl::unexpected(std::move(added.error()));
         }
@@ -28,7 +28,7 @@ SetupResult<Destinations> Destinations::open(std::span<const endpoint::Endpoint>
 SetupResult<void> Destinations::add_link(const endpoint::Endpoint& endpoint) {
     auto id = links_->add(endpoint);
     if (!id) return tl::unexpected(std::move(id.error()));
-    outputs_.push_back({*id, endpoint.options.queue_bytes});
+    outputs_.push_back({*id, static_cast<std::size_t>(endpoint.options.queue_bytes)});
     return {};
 }
 
@@ -57,20 +57,22 @@ bool Destinations::send(const wire::FrameView& frame, WallTime time) {
     return takers != 0;
 }
 
-void Destinations::look_after_files(MonoTime now, const std::function<void(std::string_view)>& on_notice) {
-    for (auto& file : files_) {
-        auto removed = file.look_after(now);
-        if (!removed) keep(tl::unexpected(std::move(removed.error())));
-        else if (!removed->empty()) on_notice(record::removal_notice(*removed, file.segment_path()));
-    }
+void Destinations::maintain_files(MonoTime now, const OnNotice& on_notice) {
+    for (auto& file : files_) report_removed(file, file.maintain(now), on_notice);
+}
+
+void Destinations::report_removed(const record::RotatingWriter& file, SetupResult<std::filesystem::path> removed,
+                                  const OnNotice& on_notice) {
+    if (!removed) keep(tl::unexpected(std::move(removed.error())));
+    else if (!removed->empty()) on_notice(file.removal_notice(*removed));
 }
 
 void Destinations::keep(SetupResult<void> result) {
     if (!result && !failure_) failure_ = std::move(result.error());
 }
 
-SetupResult<void> Destinations::close() {
-    for (auto& file : files_) keep(file.close());
+SetupResult<void> Destinations::close(const OnNotice& on_notice) {
+    for (auto& file : files_) report_removed(file, file.close(), on_notice);
     if (failure_) return tl::unexpected(*failure_);
     return {};
 }

@@ -142,6 +142,12 @@ EndpointStats Hub::stats(link::EndpointId endpoint) {
     return stats;
 }
 
+std::string Hub::silence_reason(link::EndpointId endpoint) {
+    std::string reason;
+    calls_->call([&] { reason = links_->silence_reason(endpoint); });
+    return reason;
+}
+
 EndpointStats Hub::close(link::EndpointId endpoint) {
     calls_->call([&] {
         send_queued();

@@ -3,15 +3,13 @@
 
 #include <algorithm>
 
+#include "mavloom/link/silence_watch.hpp"
+
 namespace mavloom::feed {
 namespace {
 
-constexpr auto look_interval = std::chrono::seconds(1);
+constexpr auto maintain_interval = std::chrono::seconds(1);
 constexpr std::size_t ring_frames_a_turn = 4096;  // in total, over all lossy rings
-
-bool listens(endpoint::Scheme scheme) noexcept {
-    return scheme == endpoint::Scheme::udpin || scheme == endpoint::Scheme::tcpin;
-}
 
 }  // namespace
 
@@ -20,16 +18,16 @@ HubLinks::HubLinks(Sources sources) : sources_(std::move(sources)) { links().mak
 void HubLinks::turn(MonoTime deadline) {
     for (const auto& [endpoint, entry] : open_)
         if (entry.is_lossless) sources_.hold_ring(endpoint, !entry.channel->has_room());
-    sources_.turn(*this, std::min(deadline, look_due_), {0, Channel::frames_a_turn, ring_frames_a_turn});
+    sources_.turn(*this, std::min(deadline, maintain_due_), {0, Channel::frames_a_turn, ring_frames_a_turn});
     for (const auto& [endpoint, entry] : open_) entry.channel->publish();
-    look_after_recorders();
+    maintain_recorders();
 }
 
-void HubLinks::look_after_recorders() {
+void HubLinks::maintain_recorders() {
     const auto now = mono_now();
-    if (now < look_due_) return;
-    look_due_ = now + look_interval;
-    for (const auto& [endpoint, entry] : open_) entry.channel->look_after_recorders();
+    if (now < maintain_due_) return;
+    maintain_due_ = now + maintain_interval;
+    for (const auto& [endpoint, entry] : open_) entry.channel->maintain_recorders();
 }
 
 void HubLinks::close_channels() {
@@ -80,9 +78,8 @@ void HubLinks::pass_answer(const link::RxFrame& rx) {
 
 SetupResult<Hub::Opened> HubLinks::open(const endpoint::Endpoint& endpoint, const std::shared_ptr<Channel>& channel,
                                         const ChannelReader& reader) {
-    const bool is_ring = endpoint.scheme == endpoint::Scheme::shm;
-    const auto* own = &channel->dialect();
-    const auto added = is_ring ? sources_.add_ring(endpoint, own) : links().add(endpoint, own);
+    const bool is_ring = endpoint.is_ring();
+    const auto added = sources_.add_live(endpoint, &channel->dialect());
     if (!added) return tl::unexpected(added.error());
     const bool is_lossless = is_ring && endpoint.options.lossless.value_or(false);
     if (is_lossless) channel->hold_for(&reader, [this] { wake(); });
@@ -105,7 +102,7 @@ bool HubLinks::is_up(link::EndpointId endpoint) const {
 std::optional<SetupResult<void>> HubLinks::far_side(const Hub::Opened& opened) {
     bool is_there = opened.is_ring || is_up(opened.endpoint);  // a required ring existed when it was added
     for (const auto& info : links().endpoints())
-        if (info.id == opened.endpoint && listens(info.endpoint.scheme)) is_there = is_there || info.local_port != 0;
+        if (info.id == opened.endpoint && info.endpoint.listens()) is_there = is_there || info.local_port != 0;
     if (is_there) return SetupResult<void>{};
     if (const auto* error = links().failure(opened.endpoint)) return tl::unexpected(*error);
     return std::nullopt;
@@ -157,15 +154,14 @@ void HubLinks::remove(link::EndpointId endpoint) {
         filled_from_.erase(*entry.served_inlet);
         links().remove(*entry.served_inlet);
     }
-    if (entry.is_ring) sources_.remove_ring(endpoint);
-    else links().remove(endpoint);
+    sources_.remove(endpoint);
     entry.channel->close();
 }
 
 // ---- counters
 
 EndpointStats HubLinks::stats(link::EndpointId endpoint) {
-    links().refresh_kernel_drops();
+    links().refresh_counters();
     const auto& entry = open_.at(endpoint);
     EndpointStats stats;
     add_live_counters(sends_through(endpoint), stats);
@@ -195,6 +191,19 @@ void HubLinks::add_live_counters(link::EndpointId endpoint, EndpointStats& stats
         stats.endpoint = *info.counters;
         stats.links.add(info.counters->gone);
     }
+}
+
+std::string HubLinks::silence_reason(link::EndpointId endpoint) {
+    link::LinkCounters live;
+    bool has_link = false;
+    for (const auto& link : links().links()) {
+        if (link.endpoint != endpoint) continue;
+        live.add(*link.counters);
+        has_link = has_link || link.up;
+    }
+    for (const auto& info : links().endpoints())
+        if (info.id == endpoint) return link::silence_reason(info, has_link ? &live : nullptr);
+    return "does a program write MAVLink to this ring?";
 }
 
 // Sums over present and former senders.

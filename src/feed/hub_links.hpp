@@ -32,6 +32,7 @@ public:
     [[nodiscard]] SetupResult<link::EndpointId> inlet(link::EndpointId ring);
     [[nodiscard]] SetupResult<void> serve_inlet(link::EndpointId endpoint, const std::string& ring, unsigned mode);
     [[nodiscard]] EndpointStats stats(link::EndpointId endpoint);
+    [[nodiscard]] std::string silence_reason(link::EndpointId endpoint);
     [[nodiscard]] std::size_t queued_bytes(link::EndpointId endpoint) { return links().queued_bytes(endpoint); }
 
     // Returns success if the far side was reached, and the error if it was not. Returns nullopt while the outcome is
@@ -56,7 +57,7 @@ private:
     void on_link_down(LinkId link, link::EndpointId endpoint, std::string_view why) override;
     void on_bad_checksum(LinkId link, link::EndpointId endpoint, MessageId id) override;
 
-    void look_after_recorders();
+    void maintain_recorders();
     [[nodiscard]] link::Links& links() noexcept { return sources_.links(); }
     // Null for an endpoint without a channel, such as a served inlet.
     [[nodiscard]] OpenLink* find(link::EndpointId endpoint) noexcept;
@@ -72,7 +73,7 @@ private:
     // Maps each served inlet to the endpoint that fills its ring.
     std::unordered_map<link::EndpointId, link::EndpointId> filled_from_;
     Sources sources_;
-    MonoTime look_due_{};  // when to look after the recorders
+    MonoTime maintain_due_{};  // when to look after the recorders
 };
 
 }  // namespace mavloom::feed

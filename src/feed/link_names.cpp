@@ -13,7 +13,7 @@ void LinkNames::add(LinkId link, std::string name) {
 void LinkNames::gone(LinkId link) {
     const std::lock_guard lock(mutex_);
     gone_.push_back(link);
-    if (gone_.size() <= most_gone) return;
+    if (gone_.size() <= max_gone) return;
     names_.erase(gone_.front());
     gone_.pop_front();
 }

@@ -6,8 +6,9 @@
 namespace mavloom::feed {
 
 NewestFrames::Key NewestFrames::key_of(const wire::FrameView& frame, const dialect::Message* definition) {
-    const auto* field = definition == nullptr ? nullptr : instance_field(*definition);
-    return {frame.id().value, frame.source(), field == nullptr ? Instance() : instance_of(*definition, *field, frame)};
+    const auto* field = definition == nullptr ? nullptr : message::instance_field(*definition);
+    return {frame.id().value, frame.source(),
+            field == nullptr ? message::Instance() : message::instance_of(*definition, *field, frame.payload())};
 }
 
 void NewestFrames::put(const Key& key, const FrameRing::Head& head, const wire::FrameView& frame, MonoTime now) {
@@ -30,13 +31,14 @@ NewestFrames::Entry* NewestFrames::place_of(const Key& key) {
     return &entries_.emplace(key, Entry{}).first->second;
 }
 
-const NewestFrames::Entry* NewestFrames::find(const Filter& filter, const std::optional<Instance>& instance,
+const NewestFrames::Entry* NewestFrames::find(const dialect::Filter& filter,
+                                              const std::optional<message::Instance>& instance,
                                               MonoTime not_before) const {
     const Entry* newest = nullptr;
     for (const auto& [key, kept] : entries_) {
         if (instance && key.instance != *instance) continue;
         if (kept.arrived < not_before || (newest != nullptr && kept.number < newest->number)) continue;
-        if (filter.takes(kept.frame())) newest = &kept;
+        if (filter.admits(kept.frame())) newest = &kept;
     }
     return newest;
 }

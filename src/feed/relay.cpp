@@ -19,9 +19,9 @@ RelayOutcome Relay::run(MonoTime end) {
 void Relay::turn(MonoTime end) {
     if (!has_started_) wait_for_peers();
     const std::size_t of_recordings = has_started_ ? room() : 0;
-    const Nanoseconds longest = of_recordings == 0 ? Nanoseconds{look_for_room} : Nanoseconds{longest_turn};
+    const Nanoseconds longest = of_recordings == 0 ? Nanoseconds{room_poll_interval} : Nanoseconds{longest_turn};
     sources_.turn(*this, std::min(end, mono_now() + longest), {of_recordings, room(), frames_a_turn});
-    look_after(mono_now());
+    maintain(mono_now());
 }
 
 void Relay::watch_sources(MonoTime now) {
@@ -29,11 +29,11 @@ void Relay::watch_sources(MonoTime now) {
         if (!destinations_.has(info.id)) silence_.add(info.id, info.endpoint, now);
 }
 
-void Relay::look_after(MonoTime now) {
-    destinations_.look_after_files(now, [this](std::string_view text) { handler_.on_notice(text); });
-    if (now < look_due_) return;
-    look_due_ = now + look_interval;
-    for (const auto& text : link::look_for_silence(silence_, sources_.links(), now)) handler_.on_notice(text);
+void Relay::maintain(MonoTime now) {
+    destinations_.maintain_files(now, [this](std::string_view text) { handler_.on_notice(text); });
+    if (now < maintain_due_) return;
+    maintain_due_ = now + maintain_interval;
+    for (const auto& text : link::poll_silence(silence_, sources_.links(), now)) handler_.on_notice(text);
 }
 
 void Relay::wait_for_peers() {
@@ -57,7 +57,8 @@ std::size_t Relay::room() const { return std::min(frames_a_turn, destinations_.r
 RelayOutcome Relay::finish() {
     RelayOutcome outcome;
     sources_.add_to(outcome.totals);
-    if (auto closed = destinations_.close(); !closed) outcome.write_error = std::move(closed.error());
+    auto closed = destinations_.close([this](std::string_view text) { handler_.on_notice(text); });
+    if (!closed) outcome.write_error = std::move(closed.error());
     if (const auto* error = sources_.error()) outcome.read_error = *error;
     outcome.unheard_answers = unheard_answers_;
     outcome.is_incomplete = sources_.are_recordings() && destinations_.lost_any();

@@ -48,13 +48,13 @@ public:
         const std::lock_guard lock(mutex_);
         alarm.armed_ = true;
         if (waiter_) waiter_->arm();  // before looking at the ring, so that no later record is missed
-        look_at(alarm);
+        poll(alarm);
     }
     void stop() {
         std::unique_ptr<shm::RingWaiter> ending;  // joined after the mutex is unlocked, because the thread may need it
         const std::lock_guard lock(mutex_);
         ending = std::exchange(waiter_, nullptr);
-        look_at_all();
+        poll_all();
     }
 
 private:
@@ -63,17 +63,17 @@ private:
         std::vector<shm::RingWaiter::WakeWord> words;
         words.reserve(alarms_.size());
         for (const auto* alarm : alarms_) words.push_back(alarm->word_);
-        is_crowded_ = words.size() > shm::RingWaiter::most_rings;
+        is_crowded_ = words.size() > shm::RingWaiter::max_rings;
         waiter_->watch(std::move(words));
-        look_at_all();
+        poll_all();
     }
     // Also called on the waiter's thread.
-    void look_at_all() {
+    void poll_all() {
         if (waiter_) waiter_->arm();
         for (auto* alarm : alarms_)
-            if (alarm->armed_) look_at(*alarm);
+            if (alarm->armed_) poll(*alarm);
     }
-    void look_at(RingAlarm& alarm) {
+    void poll(RingAlarm& alarm) {
         Nanoseconds sleep_time = waiter_ ? alarm.sleep_time_() : Nanoseconds{};
         if (is_crowded_) sleep_time = std::min<Nanoseconds>(sleep_time, std::chrono::milliseconds{1});
         alarm.armed_ = sleep_time != Nanoseconds{};
@@ -89,7 +89,7 @@ private:
     bool is_crowded_ = false;  // more rings than the thread can sleep on
     std::unique_ptr<shm::RingWaiter> waiter_ = std::make_unique<shm::RingWaiter>([this] {
         const std::lock_guard lock(mutex_);
-        look_at_all();
+        poll_all();
     });
 };
 

@@ -10,19 +10,19 @@
 namespace mavloom::feed {
 
 // How often to check an empty pipe for data.
-static constexpr std::chrono::milliseconds pipe_look{5};
+static constexpr std::chrono::milliseconds pipe_poll_interval{5};
 // How many bytes of damage to read before checking signals, deadlines and live links again.
 static constexpr std::uint64_t damage_a_turn = 256u << 10;
 // A drain ends at the first of these limits:
 // - last_empty_turns turns in a row without a frame. There are several, because a turn of junk has no frame either.
 // - last_late_turns turns in a row without a frame that arrived before the drain began. That many turns read 8 MiB of a
 //   stream, at 128 KiB per turn.
-// - most_drain_turns turns in all. That many turns empty a receive buffer of 64 MiB, at 64 datagrams of 768 bytes each.
+// - max_drain_turns turns in all. That many turns empty a receive buffer of 64 MiB, at 64 datagrams of 768 bytes each.
 // The first turns wait, because the system may still be delivering what was sent.
-static constexpr int last_empty_turns = 16, last_late_turns = 64, most_drain_turns = 1400;
+static constexpr int last_empty_turns = 16, last_late_turns = 64, max_drain_turns = 1400;
 static constexpr std::chrono::milliseconds empty_turn{1};
 // How many turns lossless rings wait while the caller has no room: a few hundred milliseconds, for a busy disk.
-static constexpr int most_full_turns = 300;
+static constexpr int max_full_turns = 300;
 
 SetupResult<Sources> Sources::create(const dialect::Dialect& dialect, Copies copies) {
     auto links = link::Links::create(dialect);
@@ -62,8 +62,8 @@ bool may_be_read_twice(const std::string& path) {
 
 SetupResult<void> Sources::check(const endpoint::Endpoint& endpoint) const {
     if (auto checked = endpoint::check_source_options(endpoint); !checked) return checked;
-    if (endpoint.scheme == endpoint::Scheme::shm) return ring::RingSources::check(endpoint);
-    if (endpoint.scheme != endpoint::Scheme::tlog || !may_be_read_twice(endpoint.path)) return {};
+    if (!endpoint.is_recording()) return endpoint::check_supported(endpoint, endpoint::RoutingOptions::refused);
+    if (!may_be_read_twice(endpoint.path)) return {};
     auto reader = record::TlogReader::open(endpoint.path, *table_);
     if (!reader) {
         reader.error().code = SetupCode::bad_input;
@@ -77,12 +77,7 @@ SetupResult<void> Sources::check(const endpoint::Endpoint& endpoint) const {
 SetupResult<link::EndpointId> Sources::add(const endpoint::Endpoint& endpoint, MonoTime now, double default_speed,
                                            Nanoseconds skip) {
     if (auto checked = check(endpoint); !checked) return tl::unexpected(std::move(checked.error()));
-    if (endpoint.scheme == endpoint::Scheme::shm) return rings_->add(endpoint);
-    if (endpoint.scheme != endpoint::Scheme::tlog) {
-        auto added = links_->add(endpoint);
-        if (added) live_.push_back(*added);
-        return added;
-    }
+    if (!endpoint.is_recording()) return add_live(endpoint);
     auto reader = record::TlogReader::open(endpoint.path, *table_, record::File::Empty::report);
     if (!reader) {
         reader.error().code = SetupCode::bad_input;  // an input file: exit status 3, whether missing or unreadable
@@ -93,20 +88,28 @@ SetupResult<link::EndpointId> Sources::add(const endpoint::Endpoint& endpoint, M
     if (skip != Nanoseconds{})
         if (auto skipped = skip_ahead(*reader, endpoint.path, *table_, skip); !skipped)
             return tl::unexpected(std::move(skipped.error()));
-    const auto id = first_recording_id + static_cast<std::uint32_t>(recordings_.size());
+    const auto link = links_->take_link_id();
+    const auto id = links_->take_endpoint_id();
     const double speed = endpoint.options.speed.value_or(default_speed);
     record::Pacer pacer(speed, now);
     const MonoTime due = pacer.waits() ? now : MonoTime{};
-    recordings_.push_back(std::unique_ptr<Recording>(
-        new Recording{LinkId{id}, link::EndpointId{id}, endpoint.label(), std::move(*reader), pacer, {}, {}, due}));
-    return link::EndpointId{id};
+    recordings_.push_back(
+        std::unique_ptr<Recording>(new Recording{link, id, endpoint.label(), std::move(*reader), pacer, {}, {}, due}));
+    return id;
 }
 
-SetupResult<link::EndpointId> Sources::add_ring(const endpoint::Endpoint& endpoint, const dialect::Dialect* dialect) {
-    if (auto checked = ring::RingSources::check(endpoint); !checked) return tl::unexpected(std::move(checked.error()));
-    return rings_->add(endpoint, dialect);
+SetupResult<link::EndpointId> Sources::add_live(const endpoint::Endpoint& endpoint, const dialect::Dialect* dialect) {
+    if (endpoint.is_ring()) return rings_->add(endpoint, dialect);
+    auto added = links_->add(endpoint, dialect);
+    if (added) live_.push_back(*added);
+    return added;
 }
-void Sources::remove_ring(link::EndpointId ring) { rings_->remove(ring); }
+
+void Sources::remove(link::EndpointId live) {
+    rings_->remove(live);
+    if (std::erase(live_, live) != 0) links_->remove(live);
+}
+
 void Sources::hold_ring(link::EndpointId ring, bool held) noexcept { rings_->find(ring)->hold(held); }
 SetupResult<link::EndpointId> Sources::inlet(link::EndpointId ring) { return rings_->find(ring)->inlet(); }
 const link::LinkCounters& Sources::ring_counters(link::EndpointId ring) const noexcept {
@@ -139,7 +142,7 @@ bool Sources::advance(Recording& recording, link::LinkHandler& handler) {
     }
     if (!record && record.error() == Stop::nothing_yet) {
         recording.next.reset();
-        recording.due = mono_now() + pipe_look;
+        recording.due = mono_now() + pipe_poll_interval;
         return true;
     }
     if (!record) {
@@ -162,10 +165,10 @@ bool Sources::advance(Recording& recording, link::LinkHandler& handler) {
 }
 
 // Delivers the records that are due, earliest first, across all recordings.
-std::size_t Sources::play(link::LinkHandler& handler, std::size_t most_frames) {
+std::size_t Sources::play(link::LinkHandler& handler, std::size_t max_frames) {
     const MonoTime now = mono_now();
     std::size_t played = 0;
-    for (; played < most_frames; ++played) {
+    for (; played < max_frames; ++played) {
         Recording* const first = earliest();
         if (first == nullptr || first->due > now) break;
         if (!first->next) {  // nothing read yet: at the start, after damage or after an empty pipe
@@ -222,6 +225,9 @@ private:
         handler_.on_link_down(link, endpoint, why);
     }
     void on_notice(link::EndpointId endpoint, std::string_view text) override { handler_.on_notice(endpoint, text); }
+    void on_bad_checksum(LinkId link, link::EndpointId endpoint, MessageId id) override {
+        handler_.on_bad_checksum(link, endpoint, id);
+    }
 
     link::LinkHandler& handler_;
     WallTime moment_;
@@ -236,10 +242,10 @@ void Sources::drain(link::LinkHandler& handler, const std::function<Room()>& roo
     links_->read_all();
     EarlyFrames early(handler, wall_now());
     int empty_turns = 0, late_turns = 0;
-    for (int turns = 0; turns < most_drain_turns && empty_turns < last_empty_turns && late_turns < last_late_turns;
+    for (int turns = 0; turns < max_drain_turns && empty_turns < last_empty_turns && late_turns < last_late_turns;
          ++turns) {
         const Room now = room();
-        const bool is_full = now.lossless == 0 && turns < most_full_turns && !rings_->empty();
+        const bool is_full = now.lossless == 0 && turns < max_full_turns && !rings_->empty();
         const MonoTime until = turns < last_empty_turns || is_full ? mono_now() + empty_turn : MonoTime{};
         const bool is_empty = turn(early, until, {0, now.lossless, now.lossy}) == 0 && !is_full;
         empty_turns = is_empty ? empty_turns + 1 : 0;
@@ -255,12 +261,20 @@ std::size_t Sources::send(const wire::FrameView& frame) {
 }
 
 void Sources::add_to(Totals& totals) {
-    links_->refresh_kernel_drops();
+    links_->refresh_counters();
     for (const auto& link : links_->links()) totals.add(*link.counters);
     for (const auto& endpoint : links_->endpoints()) totals.add(*endpoint.counters);
     for (const auto& ring : rings_->rings()) totals.add(*ring);
     for (const auto& recording : recordings_) totals.add(recording->reader.counters());
 }
+
+std::uint64_t Sources::lost_before_rings() const noexcept {
+    std::uint64_t lost = 0;
+    for (const auto& ring : rings_->rings()) lost += ring->counters().lost.value();
+    return lost;
+}
+
+std::span<const std::unique_ptr<ring::RingSource>> Sources::rings() const noexcept { return rings_->rings(); }
 
 bool Sources::are_recordings() const noexcept { return live_.empty() && rings_->empty(); }
 

@@ -17,6 +17,10 @@ void Totals::add(const link::EndpointCounters& counters) noexcept {
     bad_source += counters.bad_source.value();
     stray_bytes += counters.stray_bytes.value();
     peers_refused += counters.peers_refused.value() + counters.peers_limited.value();
+    http_refused += counters.http_refused.value();
+    wrong_origin += counters.wrong_origin.value();
+    bad_handshake += counters.bad_handshake.value();
+    bad_message += counters.bad_message.value();
     add(counters.gone);
 }
 

@@ -13,9 +13,9 @@ void FlightContext::say(Severity severity, std::string_view text) const {
     if (!text.empty()) observer.on_text(severity, text);
 }
 
-Outcome FlightContext::refuse(Result result, std::string_view text, std::string_view value) const {
+Outcome FlightContext::refuse(Result result, std::string_view text, std::string_view value, Severity severity) const {
     std::string why = filled(text, value);
-    say(Severity::critical, why);
+    say(severity, why);
     return {result, std::move(why)};
 }
 

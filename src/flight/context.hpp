@@ -8,7 +8,8 @@
 
 #include "flight/craft.hpp"
 #include "flight/firmware/firmware.hpp"
-#include "flight/flight.hpp"
+#include "flight/orders.hpp"
+#include "flight/state.hpp"
 
 namespace mavloom::flight {
 
@@ -40,7 +41,8 @@ struct FlightContext {
     // Announces a text of the firmware. Does nothing for an empty text.
     void say(Severity severity, std::string_view text) const;
     // Announces the text, if there is one, and returns the refusal.
-    [[nodiscard]] Outcome refuse(Result result, std::string_view text, std::string_view value = {}) const;
+    [[nodiscard]] Outcome refuse(Result result, std::string_view text, std::string_view value = {},
+                                 Severity severity = Severity::critical) const;
 };
 
 // Returns the text with its first `{}` replaced by `value`.

@@ -4,102 +4,41 @@
 // Flight knows no MAVLink messages, links or clients. Services translate messages into its orders, and telemetry reads
 // its state. It reports what happens to a FlightObserver. The owner steps it at 250 Hz. Single owner thread; `step`
 // allocates nothing unless something is announced.
+//
+// Its parts, in the order in which they work:
+//
+//   Craft           moves: airframe, battery, sensors, wind       250 Hz
+//   Navigator       set-points for the current behaviour           50 Hz, like the parts below
+//   LandedDetector  on the ground or not
+//   Commander       armed or not, and in which mode
+//   Failsafes       make the Commander act; a breached Fence is one reason
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
-#include <string_view>
 
+#include "flight/context.hpp"
+#include "flight/inputs.hpp"
 #include "flight/mode.hpp"
+#include "flight/navigation/navigator.hpp"
+#include "flight/navigation/random_pilot.hpp"
 #include "flight/orders.hpp"
-#include "flight/physics/battery.hpp"
-#include "flight/physics/sensors.hpp"
 #include "flight/plan.hpp"
+#include "flight/state.hpp"
+#include "flight/supervision/commander.hpp"
+#include "flight/supervision/failsafes.hpp"
+#include "flight/supervision/fence.hpp"
+#include "flight/supervision/landed_detector.hpp"
 #include "flight/tuning.hpp"
 #include "mavloom/flight/options.hpp"
-#include "mavloom/flight/status.hpp"
 
 namespace mavloom::flight {
-
-class Firmware;
-class Parameters;
-
-// MAV_SEVERITY.
-enum class Severity : std::uint8_t { emergency, alert, critical, error, warning, notice, info, debug };
-
-// Events of a flight. Called during `step` and orders. Implementations must not call Flight back.
-class FlightObserver {
-public:
-    virtual ~FlightObserver() = default;
-    virtual void on_text(Severity severity, std::string_view text) = 0;
-    // Armed flag, mode, system status or landed state changed: HEARTBEAT and related messages are out of date.
-    virtual void on_state_changed() = 0;
-    virtual void on_home_changed() = 0;
-    virtual void on_mission_progress() = 0;
-    virtual void on_item_reached(std::uint16_t seq) = 0;
-    // The mission reached an item that does not move the vehicle: gimbal, camera, gripper, relay, actuator and others.
-    virtual void on_payload_item(const PlanItem& /*item*/) {}
-};
-
-// MAV_STATE.
-enum class SystemStatus : std::uint8_t {
-    uninitialised = 0,
-    boot = 1,
-    calibrating = 2,
-    standby = 3,
-    active = 4,
-    critical = 5,
-    emergency = 6,
-    powered_off = 7,
-    terminated = 8,
-};
-
-// MISSION_STATE of MISSION_CURRENT.
-enum class MissionState : std::uint8_t {
-    unknown = 0,
-    no_mission = 1,
-    not_started = 2,
-    active = 3,
-    paused = 4,
-    complete = 5
-};
-
-// The vehicle's progress in its mission.
-struct MissionProgress {
-    std::uint16_t current = 0;
-    MissionState state = MissionState::no_mission;
-};
-
-// The point that the vehicle navigates to, for NAV_CONTROLLER_OUTPUT and POSITION_TARGET_GLOBAL_INT.
-struct NavigationTarget {
-    Vector3 position = no_vector;  // vehicle's local frame
-    double cross_track = 0;        // m
-};
-
-struct OrbitStatus {
-    GeoPoint center;
-    double radius = 0;
-};
-
-// Reasons that keep the vehicle from arming, as bits.
-enum Unready : std::uint32_t {
-    unready_booting = 1u << 0,
-    unready_position = 1u << 1,
-    unready_home = 1u << 2,
-    unready_battery = 1u << 3,
-    unready_sensors = 1u << 4,
-    unready_calibrating = 1u << 5,
-    unready_mode = 1u << 6,
-    unready_terminated = 1u << 7,
-};
 
 class Flight {
 public:
     // `firmware`, `parameters` and `observer` must outlive the object. The vehicle stands at its home, disarmed.
     Flight(const VehicleOptions& options, const Firmware& firmware, const Parameters& parameters,
            FlightObserver& observer);
-    ~Flight();
     Flight(const Flight&) = delete;
     Flight& operator=(const Flight&) = delete;
 
@@ -128,7 +67,7 @@ public:
     Outcome change_speed(SpeedKind kind, double speed);
     // Turns the nose to `yaw`, clockwise from north or relative to the current heading. A `nan` angle ends the order.
     Outcome turn_to(double yaw, double yaw_rate, bool relative);
-    Outcome look_at(const std::optional<GeoPoint>& point);  // region of interest; empty: none
+    Outcome set_roi(const std::optional<GeoPoint>& point);  // region of interest; empty: none
     Outcome start_mission(std::optional<std::uint16_t> first);
     // Without `seq`, restarts the current item.
     Outcome set_current_item(std::optional<std::uint16_t> seq, bool resets);
@@ -138,6 +77,7 @@ public:
     Outcome enable_fence(bool enabled);
     Outcome inject_failures(const SensorFailures& failures);
     Outcome set_battery(double share);
+    Outcome restore_battery();  // to its charge at the start
 
     // --- Inputs that must be repeated; see Tuning for their time-outs.
     void on_sticks(const Sticks& sticks);
@@ -150,53 +90,107 @@ public:
     void on_plan_changed(PlanType type);
     // While a calibration runs, the vehicle is not ready.
     void set_calibrating(bool calibrating);
+    // Keeps the vehicle from arming until it reboots.
+    void require_reboot(Unready reason);
     [[nodiscard]] bool is_calibrating() const noexcept { return (unready() & unready_calibrating) != 0; }
 
     // --- State. References stay valid for the life of the object.
-    [[nodiscard]] FlightTime since_boot() const noexcept;
-    [[nodiscard]] bool armed() const noexcept;
-    [[nodiscard]] const ModeInfo& mode() const noexcept;
-    [[nodiscard]] const ModeInfo& intended_mode() const noexcept;  // what the client asked for, before a fail-safe
-    [[nodiscard]] SystemStatus system_status() const noexcept;
-    [[nodiscard]] LandedState landed() const noexcept;
-    [[nodiscard]] std::uint32_t unready() const noexcept;  // bits of Unready; 0: can be armed
-    [[nodiscard]] bool has_failsafe() const noexcept;
+    [[nodiscard]] FlightTime since_boot() const noexcept { return context_.now(); }
+    [[nodiscard]] bool armed() const noexcept { return context_.armed; }
+    [[nodiscard]] const ModeInfo& mode() const noexcept { return commander_.mode(); }
+    // The mode that the client asked for, before a fail-safe.
+    [[nodiscard]] const ModeInfo& intended_mode() const noexcept { return commander_.intended_mode(); }
+    [[nodiscard]] SystemStatus system_status() const noexcept { return commander_.status(); }
+    [[nodiscard]] LandedState landed() const noexcept { return context_.landed; }
+    // Bits of Unready; 0: can be armed.
+    [[nodiscard]] std::uint32_t unready() const noexcept { return commander_.unready(); }
+    [[nodiscard]] bool has_failsafe() const noexcept { return commander_.has_failsafe(); }
     [[nodiscard]] bool has_sticks() const noexcept;
-    [[nodiscard]] Sticks sticks() const noexcept;
-    [[nodiscard]] const Tuning& tuning() const noexcept;
+    [[nodiscard]] Sticks sticks() const noexcept { return inputs_.sticks.value().value_or(Sticks{}); }
+    [[nodiscard]] const Tuning& tuning() const noexcept { return context_.tuning; }
 
-    [[nodiscard]] const Kinematics& truth() const noexcept;
-    [[nodiscard]] const Estimate& estimate() const noexcept;
-    [[nodiscard]] const Sensors& sensors() const noexcept;
-    [[nodiscard]] const Airframe& airframe() const noexcept;
-    [[nodiscard]] const Battery& battery() const noexcept;
-    [[nodiscard]] const Vector3& wind() const noexcept;
-    [[nodiscard]] const Setpoint& setpoint() const noexcept;
+    [[nodiscard]] const Kinematics& truth() const noexcept { return context_.craft.truth(); }
+    [[nodiscard]] const Estimate& estimate() const noexcept { return context_.craft.estimate(); }
+    [[nodiscard]] const Sensors& sensors() const noexcept { return context_.craft.sensors(); }
+    [[nodiscard]] const Airframe& airframe() const noexcept { return context_.craft.airframe(); }
+    [[nodiscard]] const Battery& battery() const noexcept { return context_.craft.battery(); }
+    [[nodiscard]] const Vector3& wind() const noexcept { return context_.craft.wind(); }
+    [[nodiscard]] const Setpoint& setpoint() const noexcept { return navigator_.guidance().setpoint(); }
 
     // The frame of every local position in this class. SET_GPS_GLOBAL_ORIGIN and a boot replace it.
-    [[nodiscard]] const LocalFrame& frame() const noexcept;
-    [[nodiscard]] bool has_origin() const noexcept;
-    [[nodiscard]] const std::optional<GeoPoint>& home() const noexcept;
-    [[nodiscard]] double home_yaw() const noexcept;
+    [[nodiscard]] const LocalFrame& frame() const noexcept { return context_.craft.frame(); }
+    [[nodiscard]] bool has_origin() const noexcept { return context_.craft.has_origin(); }
+    [[nodiscard]] const std::optional<GeoPoint>& home() const noexcept { return context_.craft.home(); }
+    [[nodiscard]] double home_yaw() const noexcept { return context_.craft.home_yaw(); }
     // The estimated position at this step.
-    [[nodiscard]] const GeoPoint& position() const;
-    [[nodiscard]] double ground_altitude() const noexcept;  // m above mean sea level
+    [[nodiscard]] const GeoPoint& position() const { return context_.craft.position(); }
+    // In metres above mean sea level. Until home is set, `home_altitude` is that of the ground.
+    [[nodiscard]] double ground_altitude() const noexcept { return context_.craft.ground_altitude(); }
+    [[nodiscard]] double home_altitude() const noexcept { return home() ? home()->altitude : ground_altitude(); }
 
-    [[nodiscard]] Plans& plans() noexcept;
-    [[nodiscard]] const Plans& plans() const noexcept;
-    [[nodiscard]] MissionProgress mission() const noexcept;
-    [[nodiscard]] const std::optional<NavigationTarget>& target() const noexcept;
+    [[nodiscard]] Plans& plans() noexcept { return context_.plans; }
+    [[nodiscard]] const Plans& plans() const noexcept { return context_.plans; }
+    [[nodiscard]] MissionProgress mission() const noexcept { return navigator_.mission().progress(); }
+    [[nodiscard]] const std::optional<NavigationTarget>& target() const noexcept {
+        return navigator_.guidance().target();
+    }
     [[nodiscard]] std::optional<OrbitStatus> orbit_status() const;
     // The point at which nose and gimbal look; empty: none.
     [[nodiscard]] const std::optional<GeoPoint>& region_of_interest() const noexcept;
-    [[nodiscard]] FlightTime armed_at() const noexcept;     // since boot; 0 if disarmed
-    [[nodiscard]] FlightTime took_off_at() const noexcept;  // since boot; 0 if on the ground
-    [[nodiscard]] std::uint32_t flights() const noexcept;
-
-    class Impl;
+    // Since boot; 0 if disarmed.
+    [[nodiscard]] FlightTime armed_at() const noexcept { return context_.armed_at; }
+    // Since boot; 0 if on the ground.
+    [[nodiscard]] FlightTime took_off_at() const noexcept { return detector_.took_off_at(); }
+    [[nodiscard]] std::uint32_t flights() const noexcept { return commander_.flights(); }
 
 private:
-    std::unique_ptr<Impl> impl_;
+    // The state that HEARTBEAT and related messages show.
+    struct Shown {
+        const ModeInfo* mode = nullptr;
+        bool armed = false;
+        SystemStatus status{};
+        LandedState landed{};
+        bool operator==(const Shown&) const = default;
+    };
+
+    void begin_random_motion();
+    void supervise();
+    void steer_at_random();
+    [[nodiscard]] Shown shown() const noexcept;
+    // Reports to the observer what changed since the last report.
+    void report_changes();
+    // Carries out an order and reports what it changed.
+    template <class Order>
+    Outcome carry_out(Order order) {
+        Outcome outcome = order();
+        report_changes();
+        return outcome;
+    }
+    void move_origin(const GeoPoint& origin);
+    Outcome begin_takeoff(const TakeoffOrder& order);
+    Outcome begin_reposition(const RepositionOrder& order);
+    Outcome begin_orbit(const OrbitOrder& order);
+    Outcome begin_mission(std::optional<std::uint16_t> first);
+    Outcome begin_return(OrderedBy by);
+    // Where the vehicle stays, or is. `keeps_goal`: on its way, it counts as there.
+    [[nodiscard]] Vector3 present_position(bool keeps_goal = false) const;
+    // The behaviour in which the vehicle stays where a client wants it: PX4's Hold, ArduPilot's Guided.
+    [[nodiscard]] Behaviour steady_behaviour() const noexcept {
+        return is_px4() ? Behaviour::hold : Behaviour::offboard;
+    }
+    [[nodiscard]] bool is_px4() const noexcept { return context_.firmware.is_px4(); }
+
+    const Parameters& parameters_;
+    FlightContext context_;
+    Inputs inputs_;
+    Navigator navigator_;
+    LandedDetector detector_;
+    Commander commander_;
+    Fence fence_;
+    Failsafes failsafes_;
+    std::optional<RandomPilot> random_pilot_;  // steers instead of the navigator
+    Shown shown_;
+    unsigned steps_ = 0;
 };
 
 }  // namespace mavloom::flight

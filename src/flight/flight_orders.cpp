@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flight/flight_impl.hpp"
+#include "flight/flight.hpp"
 
 namespace mavloom::flight {
 
@@ -23,8 +23,8 @@ bool is_valid(const GeoPoint& point) noexcept {
     return given(point.latitude, point.longitude) == Given::yes && std::abs(point.altitude) <= highest;
 }
 
-// A place by coordinates; what is absent comes from `otherwise`. The altitude is above mean sea level.
-Vector3 place_of(const Craft& craft, double latitude, double longitude, double altitude, const Vector3& otherwise) {
+// A position by coordinates; what is absent comes from `otherwise`. The altitude is above mean sea level.
+Vector3 position_of(const Craft& craft, double latitude, double longitude, double altitude, const Vector3& otherwise) {
     const double height = bounded(altitude, highest);
     const double z = std::isnan(height) ? otherwise.z() : craft.frame().origin().altitude - height;
     if (given(latitude, longitude) != Given::yes) return {otherwise.x(), otherwise.y(), z};
@@ -32,114 +32,114 @@ Vector3 place_of(const Craft& craft, double latitude, double longitude, double a
     return {place.x(), place.y(), z};
 }
 
-// Where the vehicle stays, or is.
-Vector3 present_place(const Flight::Impl& impl) {
-    const Guidance& guidance = impl.navigator.guidance();
-    const Vector3& here = impl.context.craft.estimate().position;
-    if (!guidance.is_staying() || !guidance.is_near_goal(impl.context.tuning.acceptance_radius)) return here;
+}  // namespace
+
+Vector3 Flight::present_position(bool keeps_goal) const {
+    const Guidance& guidance = navigator_.guidance();
+    const Vector3& here = estimate().position;
+    const bool is_there = keeps_goal || guidance.is_near_goal(tuning().acceptance_radius);
+    if (!guidance.is_staying() || !is_there) return here;
     const Vector3& goal = guidance.goal();
     return {goal.x(), goal.y(), std::isfinite(goal.z()) ? goal.z() : here.z()};
 }
 
-}  // namespace
-
 Outcome Flight::arm(bool force, OrderedBy by) {
-    return impl_->carry_out([&] { return impl_->commander.arm(force, by); });
+    return carry_out([&] { return commander_.arm(force, by); });
 }
 
 Outcome Flight::disarm(bool force, OrderedBy by) {
-    if (impl_->random_pilot) return impl_->context.refuse(Result::denied, impl_->context.texts().not_landed);
-    return impl_->carry_out([&] { return impl_->commander.disarm(force, by); });
+    if (random_pilot_) return context_.refuse(Result::denied, context_.texts().not_landed);
+    return carry_out([&] { return commander_.disarm(force, by); });
 }
 
 Outcome Flight::set_mode(const ModeInfo& mode, OrderedBy by) {
-    return impl_->carry_out([&] { return impl_->commander.set_mode(mode, by); });
+    return carry_out([&] { return commander_.set_mode(mode, by); });
 }
 
 Outcome Flight::take_off(const TakeoffOrder& order) {
-    return impl_->carry_out([&] { return impl_->take_off(order); });
+    return carry_out([&] { return begin_takeoff(order); });
 }
 
 // PX4 changes to its take-off mode, even while disarmed, and climbs once it is armed. ArduPilot's copter takes off in
 // Guided, armed.
-Outcome Flight::Impl::take_off(const TakeoffOrder& order) {
-    const double now_z = context.craft.estimate().position.z();
+Outcome Flight::begin_takeoff(const TakeoffOrder& order) {
+    const double now_z = context_.craft.estimate().position.z();
     const double height = bounded(order.altitude, highest);
-    double z = std::isnan(height) ? now_z - context.tuning.takeoff_altitude
-                                  : context.craft.frame().origin().altitude - height;
-    const bool in_guided = !firmware().is_px4() && context.kind() == Kind::quad;
-    if (in_guided && (!context.armed || commander.mode().behaviour != Behaviour::offboard)) return Result::failed;
-    if (in_guided && !context.is_on_ground())
-        return navigator.guidance().is_climbing() ? Result::accepted : Result::failed;
+    double z = std::isnan(height) ? now_z - context_.tuning.takeoff_altitude
+                                  : context_.craft.frame().origin().altitude - height;
+    const bool in_guided = !is_px4() && context_.kind() == Kind::quad;
+    if (in_guided && (!context_.armed || commander_.mode().behaviour != Behaviour::offboard)) return Result::failed;
+    if (in_guided && !context_.is_on_ground())
+        return navigator_.guidance().is_climbing() ? Result::accepted : Result::failed;
     const bool is_too_low = z > now_z;
-    if (is_too_low && in_guided) return context.refuse(Result::failed, context.texts().takeoff_too_low);
+    if (is_too_low && in_guided) return context_.refuse(Result::failed, context_.texts().takeoff_too_low);
     if (!in_guided)
-        if (Outcome outcome = commander.enter(Behaviour::takeoff, OrderedBy::client); !outcome.is_accepted())
+        if (Outcome outcome = commander_.enter(Behaviour::takeoff, OrderedBy::client); !outcome.is_accepted())
             return outcome;
-    if (is_too_low) context.say(Severity::critical, context.texts().takeoff_too_low);
-    navigator.take_off(std::min(z, now_z), bounded(order.yaw, 1e3));
+    if (is_too_low) context_.say(Severity::critical, context_.texts().takeoff_too_low);
+    navigator_.take_off(std::min(z, now_z), bounded(order.yaw, 1e3));
     return Result::accepted;
 }
 
 // PX4 and ArduPilot land where the vehicle is, whatever position the command has.
 Outcome Flight::land(const LandOrder& /*order*/) {
-    return impl_->carry_out([&] { return impl_->commander.enter(Behaviour::land, OrderedBy::client); });
+    return carry_out([&] { return commander_.enter(Behaviour::land, OrderedBy::client); });
 }
 
 Outcome Flight::return_home() {
-    return impl_->carry_out([&] { return impl_->return_home(OrderedBy::client); });
+    return carry_out([&] { return begin_return(OrderedBy::client); });
 }
 
-Outcome Flight::Impl::return_home(OrderedBy by) {
-    if (commander.can_run(Behaviour::return_home)) context.say(Severity::info, context.texts().return_ordered);
-    return commander.enter(Behaviour::return_home, by);
+Outcome Flight::begin_return(OrderedBy by) {
+    if (commander_.can_run(Behaviour::return_home)) context_.say(Severity::info, context_.texts().return_ordered);
+    return commander_.enter(Behaviour::return_home, by);
 }
 
 Outcome Flight::reposition(const RepositionOrder& order) {
-    return impl_->carry_out([&] { return impl_->reposition(order); });
+    return carry_out([&] { return begin_reposition(order); });
 }
 
-Outcome Flight::Impl::reposition(const RepositionOrder& order) {
+Outcome Flight::begin_reposition(const RepositionOrder& order) {
     const Given place = given(order.latitude, order.longitude);
-    if (place == Given::wrong || !context.craft.sensors().has_position()) return Result::denied;
+    if (place == Given::wrong || !context_.craft.sensors().has_position()) return Result::denied;
     const Behaviour wanted = steady_behaviour();
-    if (commander.mode().behaviour != wanted) {
+    if (commander_.mode().behaviour != wanted) {
         if (!order.may_change_mode) return Result::denied;
-        if (Outcome outcome = commander.enter(wanted, OrderedBy::client); !outcome.is_accepted()) return outcome;
+        if (Outcome outcome = commander_.enter(wanted, OrderedBy::client); !outcome.is_accepted()) return outcome;
     }
-    inputs.offboard.forget();
-    Guidance& guidance = navigator.guidance();
+    inputs_.offboard.forget();
+    Guidance& guidance = navigator_.guidance();
     if (order.speed > 0) guidance.set_speed(SpeedKind::ground, order.speed);
     const double yaw = bounded(order.yaw, 1e3);
     if (place == Given::no && std::isnan(order.altitude) && std::isnan(yaw)) {
         guidance.stop();
     } else {
-        guidance.stay(place_of(context.craft, order.latitude, order.longitude, order.altitude, present_place(*this)),
+        guidance.stay(position_of(context_.craft, order.latitude, order.longitude, order.altitude, present_position()),
                       yaw, bounded(order.radius, widest));
     }
     return Result::accepted;
 }
 
 Outcome Flight::orbit(const OrbitOrder& order) {
-    return impl_->carry_out([&] { return impl_->orbit(order); });
+    return carry_out([&] { return begin_orbit(order); });
 }
 
 // A firmware without an orbit mode has its planes circle in Hold.
-Outcome Flight::Impl::orbit(const OrbitOrder& order) {
-    const double radius = std::isnan(order.radius) ? context.tuning.loiter_radius : order.radius;
+Outcome Flight::begin_orbit(const OrbitOrder& order) {
+    const double radius = std::isnan(order.radius) ? context_.tuning.loiter_radius : order.radius;
     if (given(order.latitude, order.longitude) == Given::wrong || !(std::abs(radius) <= widest_orbit) || radius == 0)
         return Result::denied;
-    if (!context.craft.sensors().has_position()) return Result::denied;
-    const bool has_mode = firmware().mode_for(Behaviour::orbit) != nullptr;
-    if (!has_mode && context.kind() != Kind::plane) return Result::unsupported;
-    if (Outcome outcome = commander.enter(has_mode ? Behaviour::orbit : steady_behaviour(), OrderedBy::client);
+    if (!context_.craft.sensors().has_position()) return Result::denied;
+    const bool has_mode = context_.firmware.mode_for(Behaviour::orbit) != nullptr;
+    if (!has_mode && context_.kind() != Kind::plane) return Result::unsupported;
+    if (Outcome outcome = commander_.enter(has_mode ? Behaviour::orbit : steady_behaviour(), OrderedBy::client);
         !outcome.is_accepted())
         return outcome;
-    if (order.speed > 0) navigator.guidance().set_speed(SpeedKind::ground, order.speed);
-    const Vector3 center = place_of(context.craft, order.latitude, order.longitude, order.altitude,
-                                    context.craft.estimate().position);
-    navigator.orbit({.center = center, .radius = radius, .yaw = order.yaw},
-                    std::isfinite(order.turns) ? std::max(order.turns, 0.0) : 0);
+    if (order.speed > 0) navigator_.guidance().set_speed(SpeedKind::ground, order.speed);
+    const Vector3 center = position_of(context_.craft, order.latitude, order.longitude, order.altitude,
+                                       context_.craft.estimate().position);
+    navigator_.orbit({.center = center, .radius = radius, .yaw = order.yaw},
+                     std::isfinite(order.turns) ? std::max(order.turns, 0.0) : 0);
     return Result::accepted;
 }
 
@@ -157,109 +157,118 @@ void Flight::on_target(const GeoPoint& target, const Vector3& velocity) {
     const double ground = home() ? home()->altitude : ground_altitude();
     const Vector3 place(there.x() + t.follow_distance * std::cos(side), there.y() + t.follow_distance * std::sin(side),
                         frame().origin().altitude - ground - t.follow_height);
-    impl_->navigator.guidance().stay(place, wrap_pi(side + pi));
+    navigator_.guidance().stay(place, wrap_pi(side + pi));
 }
 
 // ArduPilot pauses within its mode; PX4 changes to Hold.
 Outcome Flight::pause() {
-    return impl_->carry_out([&]() -> Outcome {
-        if (impl_->firmware().is_px4()) return impl_->commander.enter(Behaviour::hold, OrderedBy::client);
+    return carry_out([&]() -> Outcome {
+        if (is_px4()) return commander_.enter(Behaviour::hold, OrderedBy::client);
         const Behaviour behaviour = mode().behaviour;
         if (behaviour != Behaviour::mission && behaviour != Behaviour::offboard) return Result::failed;
-        impl_->navigator.pause();
+        navigator_.pause();
         return Result::accepted;
     });
 }
 
 Outcome Flight::resume() {
-    return impl_->carry_out([&]() -> Outcome {
-        if (impl_->firmware().is_px4()) return impl_->commander.enter(Behaviour::mission, OrderedBy::client);
-        impl_->navigator.resume();
+    return carry_out([&]() -> Outcome {
+        if (is_px4()) return commander_.enter(Behaviour::mission, OrderedBy::client);
+        navigator_.resume();
         return Result::accepted;
     });
 }
 
+// ArduPilot stays on its way; PX4 stops.
 Outcome Flight::change_altitude(double altitude) {
     if (!std::isfinite(altitude)) return Result::denied;
-    if (mode().behaviour != impl_->steady_behaviour()) return Result::temporarily_rejected;
-    return impl_->carry_out([&]() -> Outcome {
-        const Craft& craft = impl_->context.craft;
-        impl_->inputs.offboard.forget();
-        impl_->navigator.guidance().stay(place_of(craft, nan, nan, altitude, present_place(*impl_)));
+    if (mode().behaviour != steady_behaviour()) return Result::temporarily_rejected;
+    return carry_out([&]() -> Outcome {
+        const Craft& craft = context_.craft;
+        const Vector3 here = present_position(!is_px4());
+        inputs_.offboard.forget();
+        navigator_.guidance().stay(position_of(craft, nan, nan, altitude, here));
         return Result::accepted;
     });
 }
 
 Outcome Flight::change_speed(SpeedKind kind, double speed) {
-    impl_->navigator.guidance().set_speed(kind, speed);
+    navigator_.guidance().set_speed(kind, speed);
     return Result::accepted;
 }
 
 Outcome Flight::turn_to(double yaw, double yaw_rate, bool relative) {
-    Guidance& guidance = impl_->navigator.guidance();
+    Guidance& guidance = navigator_.guidance();
     guidance.heading().turn_to(bounded(relative ? estimate().euler.yaw + yaw : yaw, 1e3), bounded(yaw_rate, 10));
     return Result::accepted;
 }
 
-Outcome Flight::look_at(const std::optional<GeoPoint>& point) {
+Outcome Flight::set_roi(const std::optional<GeoPoint>& point) {
     if (point && given(point->latitude, point->longitude) != Given::yes) return Result::denied;
-    impl_->navigator.guidance().heading().look_at(point);
+    navigator_.guidance().heading().set_roi(point);
     return Result::accepted;
 }
 
 Outcome Flight::start_mission(std::optional<std::uint16_t> first) {
-    return impl_->carry_out([&] { return impl_->start_mission(first); });
+    return carry_out([&] { return begin_mission(first); });
 }
 
-// PX4 also arms.
-Outcome Flight::Impl::start_mission(std::optional<std::uint16_t> first) {
-    if (context.plans.mission().empty()) return context.refuse(Result::denied, context.texts().no_mission);
-    if (first && !navigator.mission().set_current(first, false)) return Result::denied;
-    if (Outcome outcome = commander.enter(Behaviour::mission, OrderedBy::client); !outcome.is_accepted())
+// PX4 also arms. ArduPilot only changes its mode.
+Outcome Flight::begin_mission(std::optional<std::uint16_t> first) {
+    if (is_px4() && context_.plans.mission().empty())
+        return context_.refuse(Result::denied, context_.texts().no_mission);
+    if (first && !navigator_.mission().set_current(first, false)) return Result::denied;
+    if (Outcome outcome = commander_.enter(Behaviour::mission, OrderedBy::client); !outcome.is_accepted())
         return outcome;
-    return firmware().is_px4() ? commander.arm(false, OrderedBy::client) : Result::accepted;
+    return is_px4() ? commander_.arm(false, OrderedBy::client) : Result::accepted;
 }
 
 Outcome Flight::set_current_item(std::optional<std::uint16_t> seq, bool resets) {
-    return impl_->carry_out([&]() -> Outcome {
-        return impl_->navigator.mission().set_current(seq, resets) ? Result::accepted : Result::failed;
-    });
+    return carry_out(
+        [&]() -> Outcome { return navigator_.mission().set_current(seq, resets) ? Result::accepted : Result::failed; });
 }
 
 Outcome Flight::set_home(const std::optional<GeoPoint>& point, double yaw) {
     if (point && (!is_valid(*point) || distance_m(*point, position()) > farthest_origin)) return Result::denied;
-    return impl_->carry_out([&] { return impl_->commander.set_home(point, yaw); });
+    return carry_out([&] { return commander_.set_home(point, yaw); });
 }
 
 Outcome Flight::set_origin(const GeoPoint& origin) {
     if (!is_valid(origin) || distance_m(origin, position()) > farthest_origin) return Result::denied;
-    impl_->set_origin(origin);
-    impl_->context.observer.on_home_changed();  // its local position did
+    move_origin(origin);
+    context_.observer.on_home_changed();  // its local position did
     return Result::accepted;
 }
 
 Outcome Flight::terminate() {
-    if (impl_->random_pilot) return Result::denied;
-    return impl_->carry_out([&] { return impl_->commander.terminate(); });
+    if (random_pilot_) return Result::denied;
+    return carry_out([&] { return commander_.terminate(); });
 }
 
 Outcome Flight::enable_fence(bool enabled) {
-    impl_->fence.enable(enabled);
+    fence_.enable(enabled);
     return Result::accepted;
 }
 
 Outcome Flight::inject_failures(const SensorFailures& failures) {
     if (!tuning().may_inject_failures) return Result::denied;
-    return impl_->carry_out([&]() -> Outcome {
-        impl_->context.craft.sensors().set_failures(failures);
+    return carry_out([&]() -> Outcome {
+        context_.craft.sensors().set_failures(failures);
         return Result::accepted;
     });
 }
 
 Outcome Flight::set_battery(double share) {
     if (!(share >= 0 && share <= 1)) return Result::denied;
-    return impl_->carry_out([&]() -> Outcome {
-        impl_->context.craft.battery().set_remaining(share);
+    return carry_out([&]() -> Outcome {
+        context_.craft.battery().set_remaining(share);
+        return Result::accepted;
+    });
+}
+
+Outcome Flight::restore_battery() {
+    return carry_out([&]() -> Outcome {
+        context_.craft.battery().restore();
         return Result::accepted;
     });
 }

@@ -8,7 +8,7 @@ namespace mavloom::flight {
 
 namespace {
 
-constexpr double most_distance = 1e6, most_rate = 1e3;  // m; m/s, m/s^2 and rad/s
+constexpr double max_distance = 1e6, max_rate = 1e3;  // m; m/s, m/s^2 and rad/s
 
 Vector3 each_bounded(const Vector3& vector, double most) noexcept {
     return {bounded(vector.x(), most), bounded(vector.y(), most), bounded(vector.z(), most)};
@@ -18,7 +18,6 @@ Vector3 paired(Vector3 vector) noexcept {
     if (std::isnan(vector.x()) || std::isnan(vector.y())) vector.x() = vector.y() = nan;
     return vector;
 }
-bool has_any(const Vector3& vector) noexcept { return !vector.array().isNaN().all(); }
 double share(double value, double low, double fallback) noexcept {
     return std::isfinite(value) ? std::clamp(value, low, 1.0) : fallback;
 }
@@ -38,11 +37,11 @@ Sticks bounded(const Sticks& sticks) noexcept {
 
 std::optional<OffboardSetpoint> bounded(const OffboardSetpoint& given) noexcept {
     OffboardSetpoint setpoint = given;
-    setpoint.position = paired(each_bounded(given.position, most_distance));
-    setpoint.velocity = paired(each_bounded(given.velocity, most_rate));
-    setpoint.acceleration = paired(each_bounded(given.acceleration, most_rate));
+    setpoint.position = paired(each_bounded(given.position, max_distance));
+    setpoint.velocity = paired(each_bounded(given.velocity, max_rate));
+    setpoint.acceleration = paired(each_bounded(given.acceleration, max_rate));
     setpoint.yaw = bounded(given.yaw, 1e3);
-    setpoint.yaw_rate = bounded(given.yaw_rate, most_rate);
+    setpoint.yaw_rate = bounded(given.yaw_rate, max_rate);
     setpoint.rates = each_bounded(given.rates, 20);
     setpoint.thrust = share(given.thrust, -1, 0);
     for (double& input : setpoint.mixer) input = share(input, -1, 0);

@@ -4,13 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 
 #include "link/core/core.hpp"
 #include "link/local/inlet.hpp"
-#include "link/local/shm.hpp"
-#include "link/serial/serial.hpp"
-#include "link/tcp/tcp.hpp"
-#include "link/udp/udp.hpp"
+#include "link/threaded/threaded_endpoint.hpp"
 #include "mavloom/endpoint/checks.hpp"
 #include "mavloom/net/run_folder.hpp"
 
@@ -38,25 +36,32 @@ SetupResult<std::unique_ptr<Links>> Links::create(const dialect::Dialect& dialec
     return std::unique_ptr<Links>(new Links(std::move(core), routing));
 }
 
-static SetupResult<std::unique_ptr<OpenEndpoint>> open(Opening opening) {
-    switch (opening.endpoint.scheme) {
-        case endpoint::Scheme::udpin: return open_udpin(std::move(opening));
-        case endpoint::Scheme::udpout: return open_udpout(std::move(opening));
-        case endpoint::Scheme::udpbcast: return open_udpbcast(std::move(opening));
-        case endpoint::Scheme::udpmcast: return open_udpmcast(std::move(opening));
-        case endpoint::Scheme::tcpin: return open_tcpin(std::move(opening));
-        case endpoint::Scheme::tcpout: return open_tcpout(std::move(opening));
-        case endpoint::Scheme::serial: return open_serial(std::move(opening));
-        case endpoint::Scheme::shm: return open_shm(std::move(opening));
-        case endpoint::Scheme::tlog: break;  // check_supported() has refused it
-    }
-    return setup_error(SetupCode::usage, "a recording is not a link");
+namespace {
+
+struct OwnTransport {
+    endpoint::Scheme scheme;
+    Open* open;
+};
+
+constexpr OwnTransport transports[] = {
+    {endpoint::Scheme::udpin, open_udpin},       {endpoint::Scheme::udpout, open_udpout},
+    {endpoint::Scheme::udpbcast, open_udpbcast}, {endpoint::Scheme::udpmcast, open_udpmcast},
+    {endpoint::Scheme::tcpin, open_tcpin},       {endpoint::Scheme::tcpout, open_tcpout},
+    {endpoint::Scheme::serial, open_serial},     {endpoint::Scheme::shm, open_shm},
+};
+
+}  // namespace
+
+static Opened open(Opening opening) {
+    const auto transport = std::ranges::find(transports, opening.endpoint.scheme, &OwnTransport::scheme);
+    if (transport != std::ranges::end(transports)) return transport->open(std::move(opening));
+    if (has_transport(opening.endpoint.scheme)) return open_threaded(std::move(opening));
+    return setup_error(SetupCode::usage, fmt::format("this program has no {} links", opening.endpoint.row().name));
 }
 
 // Several endpoints may request port 0; each gets its own port.
 static bool has_address_of_its_own(const endpoint::Endpoint& endpoint) noexcept {
-    return endpoint.scheme == endpoint::Scheme::serial || endpoint.scheme == endpoint::Scheme::shm ||
-           endpoint.address.port != 0;
+    return !endpoint.has_address() || endpoint.address.port != 0;
 }
 
 SetupResult<EndpointId> Links::add(const endpoint::Endpoint& endpoint, const dialect::Dialect* dialect) {
@@ -87,7 +92,7 @@ SetupResult<EndpointId> Links::add(const endpoint::Endpoint& endpoint, const dia
 SetupResult<void> Links::open_as(EndpointId id, std::uint8_t signs_as, const endpoint::Endpoint& endpoint,
                                  const dialect::Dialect* dialect) {
     std::vector<std::string> notices;
-    auto signature = Signature::load(endpoint.options, signs_as, core_->key_states, notices);
+    auto signature = Signature::load(endpoint.options, signs_as, core_->key_store, notices);
     if (!signature) return tl::unexpected(std::move(signature.error()).within(endpoint.label()));
     for (auto& text : notices) core_->events.notice(id, std::move(text));
     if (dialect != nullptr) core_->dialects.set(id, *dialect);
@@ -100,7 +105,7 @@ SetupResult<void> Links::open_as(EndpointId id, std::uint8_t signs_as, const end
     return {};
 }
 
-void Links::make_independent() noexcept { allows_same_address_ = core_->key_states.endpoints_are_independent = true; }
+void Links::make_independent() noexcept { allows_same_address_ = core_->key_store.endpoints_are_independent = true; }
 
 bool Links::allows_same_address(const endpoint::Endpoint& endpoint) const noexcept {
     return allows_same_address_ && endpoint.options.name.empty();
@@ -124,12 +129,37 @@ const SetupError* Links::failure(EndpointId endpoint) const noexcept {
 }
 
 void Links::remove(EndpointId endpoint) {
+    assert(core_->events.handler() == nullptr && "remove must not be called inside a callback");
     core_->endpoints.remove(endpoint);
+    core_->stages.erase(endpoint);
     core_->dialects.forget(endpoint);
     core_->coalescing.allow(!core_->endpoints.any_low_latency());
 }
 
+static bool may_have_stages(const OpenEndpoint* endpoint) {
+    return endpoint != nullptr && endpoint->info.endpoint.scheme != endpoint::Scheme::shm;
+}
+
+bool Links::set_stages(EndpointId endpoint, CreateStages create) {
+    assert(core_->events.handler() == nullptr && "set_stages must not be called inside a callback");
+    const bool may = may_have_stages(core_->endpoints.find(endpoint));
+    if (may) core_->set_stages(endpoint, std::move(create));
+    return may;
+}
+
+bool Links::set_stages(LinkId link, Stages stages) {
+    assert(core_->events.handler() == nullptr && "set_stages must not be called inside a callback");
+    Link* const found = core_->links.find(link);
+    const bool may = found != nullptr && may_have_stages(core_->endpoints.find(found->endpoint));
+    if (may) core_->set_stages(*found, std::move(stages));
+    return may;
+}
+
+LinkId Links::take_link_id() noexcept { return core_->links.take_id(); }
+EndpointId Links::take_endpoint_id() { return core_->endpoints.take_id(); }
+
 bool Links::close(LinkId link) {
+    assert(core_->events.handler() == nullptr && "close must not be called inside a callback");
     const Link* const found = core_->links.find(link);
     OpenEndpoint* const endpoint = found == nullptr ? nullptr : core_->endpoints.find(found->endpoint);
     return endpoint != nullptr && endpoint->close_link(link);
@@ -156,14 +186,16 @@ std::size_t Links::send(std::span<const LinkId> links, const wire::FrameView& fr
     return taken;
 }
 
-std::size_t Links::send_unverified(std::span<const LinkId> links, const wire::FrameView& frame) {
+std::size_t Links::forward(std::span<const LinkId> links, const wire::FrameView& frame, Rank from) {
     OutgoingFrame outgoing(frame);
     std::size_t not_signed = 0;
     for (const LinkId id : links) {
         Link* const link = core_->links.find(id);
-        if (link != nullptr && link->up && Core::send_unverified(*link, outgoing, core_->now()) &&
-            link->signature != nullptr && link->signature->signs())
-            ++not_signed;
+        if (link == nullptr || !link->up) continue;
+        const bool is_signed = link->signs(from);
+        const bool is_queued = is_signed ? Core::send(*link, outgoing, core_->now())
+                                         : Core::send_unsigned(*link, outgoing, from, core_->now());
+        if (is_queued && !is_signed && link->signature != nullptr && link->signature->signs()) ++not_signed;
     }
     return not_signed;
 }
@@ -175,14 +207,13 @@ std::size_t Links::send(EndpointId endpoint, const wire::FrameView& frame) {
     return found == nullptr ? 0 : found->send(frame);
 }
 
-const wire::SequenceTracker::Update& Links::count_loss(const RxFrame& rx) {
-    Link* const found = core_->links.find(rx.link);
-    return found == nullptr ? wire::no_loss : Core::count_loss(*found, rx.frame, rx.info);
-}
-
 MonoTime Links::now() const noexcept { return core_->now(); }
 
-bool Links::pending() const { return core_->links.any_queued(); }
+bool Links::pending() const {
+    bool is_sending = false;
+    core_->endpoints.each([&](const OpenEndpoint& endpoint) { is_sending = is_sending || endpoint.is_sending(); });
+    return is_sending || core_->links.any_queued();
+}
 
 std::size_t Links::queued_bytes(EndpointId endpoint) const {
     const OpenEndpoint* const found = core_->endpoints.find(endpoint);
@@ -191,13 +222,13 @@ std::size_t Links::queued_bytes(EndpointId endpoint) const {
 
 std::size_t Links::queued_bytes(LinkId link) const noexcept {
     const Link* const found = core_->links.find(link);
-    return found == nullptr ? 0 : found->queue.bytes();
+    return found == nullptr ? 0 : found->queued_bytes();
 }
 
 void Links::wake() noexcept { core_->loop().wake(); }
 
-void Links::refresh_kernel_drops() {
-    core_->endpoints.each([](OpenEndpoint& endpoint) { endpoint.refresh_kernel_drops(); });
+void Links::refresh_counters() {
+    core_->endpoints.each([](OpenEndpoint& endpoint) { endpoint.refresh_counters(); });
 }
 
 std::vector<LinkInfo> Links::links() const { return links(link_ids()); }
@@ -216,7 +247,7 @@ std::vector<LinkInfo> Links::links(std::span<const LinkId> ids) const {
         const Link* const l = core_->links.find(id);
         if (l == nullptr) continue;
         if (auto* const endpoint = core_->endpoints.find(l->endpoint)) endpoint->settle_sent();
-        infos.push_back({l->id, l->endpoint, l->name, l->up, &l->counters});
+        infos.push_back({l->id, l->endpoint, l->name, l->up, l->rank, &l->counters});
     }
     return infos;
 }
@@ -230,6 +261,11 @@ std::vector<EndpointInfo> Links::endpoints() const {
     return infos;
 }
 
+Rank Links::rank(LinkId link) const noexcept {
+    const Link* const found = core_->links.find(link);
+    return found == nullptr ? Rank::stranger : found->rank;
+}
+
 std::string_view Links::link_name(LinkId link) const {
     const Link* const found = core_->links.find(link);
     return found == nullptr ? std::string_view{} : std::string_view(found->name);
@@ -237,7 +273,7 @@ std::string_view Links::link_name(LinkId link) const {
 
 std::span<const wire::SequenceStats> Links::sources(LinkId link) const noexcept {
     const Link* const found = core_->links.find(link);
-    return found == nullptr ? std::span<const wire::SequenceStats>{} : found->tracker.sources();
+    return found == nullptr ? std::span<const wire::SequenceStats>{} : found->loss.tracker.sources();
 }
 
 const LinkCounters* Links::counters(LinkId link) const noexcept {

@@ -29,8 +29,7 @@ bool OpenEndpoints::any_low_latency() const {
 
 bool OpenEndpoints::has_udp_port(std::uint16_t port) const {
     return std::ranges::any_of(endpoints_, [&](const auto& e) {
-        return e && e->info.local_port == port &&
-               (endpoint::set_of(e->info.endpoint.scheme) & endpoint::udp_schemes) != 0;
+        return e && e->info.local_port == port && e->info.endpoint.row().carrier == endpoint::Carrier::udp;
     });
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
+#include <cassert>
 #include <cstddef>
 #include <memory>
 #include <string_view>
@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "link/core/core.hpp"
-#include "link/eviction.hpp"
+#include "link/peer_policy.hpp"
 
 namespace mavloom::link::detail {
 
-// `Peer` is a Link with `last_heard`. The destructor removes the remaining peers and destroys them
+// `Peer` is a Link with `last_heard` and `candidate`. The destructor removes the remaining peers and destroys them
 // immediately, so it must not run inside a callback.
 template <class Peer>
 class PeerList {
@@ -30,9 +30,9 @@ public:
     [[nodiscard]] bool empty() const noexcept { return peers_.empty(); }
     [[nodiscard]] std::size_t size() const noexcept { return peers_.size(); }
     [[nodiscard]] bool is_full() const noexcept { return size() >= endpoint_.info.endpoint.options.max_peers; }
-    [[nodiscard]] std::vector<Peer*> all() const {
-        std::vector<Peer*> list(peers_.size());
-        std::ranges::transform(peers_, list.begin(), &std::unique_ptr<Peer>::get);
+    [[nodiscard]] std::vector<PeerPolicy::Candidate> candidates() const {
+        std::vector<PeerPolicy::Candidate> list(peers_.size());
+        std::ranges::transform(peers_, list.begin(), [](const auto& peer) { return peer->candidate(); });
         return list;
     }
     // Returns null if no peer has this link id.
@@ -42,9 +42,10 @@ public:
     }
 
     // Makes the peer a link, and notifies the handler.
-    Peer& add(std::unique_ptr<Peer> peer) {
+    Peer& add(std::unique_ptr<Peer> peer, Rank rank) {
+        assert(!is_full());
         peer->signature = endpoint_.signature.get();
-        core_.add_link(*peer);
+        core_.add_link(*peer, rank);
         Peer& added = *peers_.emplace_back(std::move(peer));
         core_.events.mark_up(added);
         return added;
@@ -54,7 +55,8 @@ public:
         core_.remove_link(peer, why);
         endpoint_.count_gone(peer);
         const auto at = std::ranges::find_if(peers_, [&](const auto& p) { return p.get() == &peer; });
-        core_.bury(std::move(*at));
+        assert(at != peers_.end());
+        core_.destroy_later(std::move(*at));
         *at = std::move(peers_.back());
         peers_.pop_back();
     }
@@ -69,8 +71,16 @@ public:
         }
         return oldest + idle;
     }
-    // See eviction.hpp.
-    [[nodiscard]] Peer* to_evict(MonoTime now) const { return detail::to_evict(all(), now); }
+    // The client to close for a newcomer: a silent one, and only at a limited rate, unless the newcomer's host has at
+    // least two silent clients fewer than another. Null if there is none.
+    [[nodiscard]] Peer* to_close_for(const net::Address& newcomer, PeerPolicy& policy, MonoTime now) const {
+        const auto all = candidates();
+        const bool is_limited = !PeerPolicy::is_small(PeerPolicy::crowd_of(newcomer), all);
+        if (is_limited && policy.ask(newcomer, now) != PeerPolicy::Answer::admitted) return nullptr;
+        const auto first = PeerPolicy::to_evict(all, now);
+        if (first && is_limited) policy.note_entry(now);
+        return first ? find(*first) : nullptr;
+    }
 
     // Queues the frame for all peers that are up. Returns how many took it.
     std::size_t send(const wire::FrameView& frame) {
@@ -81,7 +91,7 @@ public:
     }
     [[nodiscard]] std::size_t queued_bytes() const noexcept {
         std::size_t sum = 0;
-        for (const auto& peer : peers_) sum += peer->queue.bytes();
+        for (const auto& peer : peers_) sum += peer->queued_bytes();
         return sum;
     }
 

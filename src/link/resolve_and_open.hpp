@@ -16,7 +16,7 @@ namespace mavloom::link::detail {
 // For udpin and tcpin. `Listener` is the class of the endpoint; its `open(addresses)` binds the addresses. A look-up
 // that takes longer than a second continues in the background.
 template <class Listener>
-SetupResult<std::unique_ptr<OpenEndpoint>> open_listening(Opening opening) {
+Opened open_listening(Opening opening) {
     constexpr std::chrono::seconds look_up_limit{1};
     const endpoint::Endpoint& endpoint = opening.endpoint;
     auto opened = std::make_unique<Listener>(opening);
@@ -32,7 +32,7 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_listening(Opening opening) {
 // `required`. Other errors, such as a port in use, are always returned. A look-up that takes longer than 250 ms
 // continues in the background, unless `required`.
 template <class Destination>
-SetupResult<std::unique_ptr<OpenEndpoint>> open_destination(Opening opening) {
+Opened open_destination(Opening opening) {
     const endpoint::Endpoint& endpoint = opening.endpoint;
     if (auto checked = endpoint::check_destination(endpoint); !checked)
         return tl::unexpected(std::move(checked).error());

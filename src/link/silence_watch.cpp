@@ -13,17 +13,10 @@ namespace mavloom::link {
 
 namespace {
 
-using endpoint::Scheme;
-
 bool has_heard(const LinkCounters* link) noexcept { return link != nullptr && link->frames_in.value() != 0; }
-bool has_sent(const LinkCounters* link) noexcept { return link != nullptr && link->frames_out.value() != 0; }
-
-std::string advice_for_serial(const endpoint::Endpoint& endpoint) {
-    return fmt::format(
-        "is it the right port, is the baud rate right ({}), are the wires crossed (TX to RX), and "
-        "does the far side send MAVLink on that port?",
-        endpoint.options.baud == 0 ? std::string("baud=auto found none yet")
-                                   : fmt::format("{} here; baud=auto tries a list", endpoint.options.baud));
+// Frames that the far side refused were sent there, too.
+bool has_sent(const LinkCounters* link) noexcept {
+    return link != nullptr && link->frames_out.value() + link->refused.value() != 0;
 }
 
 // udpout and udpbcast send first: most programs answer the address that they hear, and no other.
@@ -34,34 +27,22 @@ std::string advice_for_unsent(const endpoint::Endpoint& endpoint) {
         endpoint.address.port, endpoint.address.port);
 }
 
+// True for endpoints that send datagrams to a fixed address, and hear answers only.
+bool must_send_first(const endpoint::Endpoint& endpoint) noexcept {
+    const auto& row = endpoint.row();
+    return endpoint.calls() && row.carrier == endpoint::Carrier::udp && row.cast != endpoint::Cast::group;
+}
+
 std::string advice_for(const EndpointInfo& info, const LinkCounters* link) {
     const auto& endpoint = info.endpoint;
-    switch (endpoint.scheme) {
-        case Scheme::serial: return advice_for_serial(endpoint);
-        case Scheme::tcpout:
-            return fmt::format("{} accepted the connection: does it send MAVLink?", endpoint::to_text(endpoint.address));
-        case Scheme::tcpin:
-            return link != nullptr ? "a client is connected: does it send MAVLink?"
-                                   : fmt::format("no client has connected to port {}", info.local_port);
-        case Scheme::udpin:
-            return fmt::format(
-                "does the far side send to port {} and to an address of this machine, and does the firewall let it in?",
-                info.local_port);
-        case Scheme::udpbcast:
-            if (!has_sent(link)) return advice_for_unsent(endpoint);
-            return fmt::format(
-                "does a program on that network listen on port {}, and does the firewall let answers through?",
-                endpoint.address.port);
-        case Scheme::udpmcast:
-            return fmt::format("is a program in the group {}, on the network that iface= or the routing table selects?",
-                               endpoint::to_text(endpoint.address));
-        default:
-            if (!has_sent(link)) return advice_for_unsent(endpoint);
-            return fmt::format(
-                "does the far side listen on {}, and does it answer every sender? PX4 answers only the "
-                "first one: restart it after this program",
-                endpoint::to_text(endpoint.address));
-    }
+    if (must_send_first(endpoint) && !has_sent(link)) return advice_for_unsent(endpoint);
+    if (endpoint.accepts_clients() && link == nullptr)
+        return fmt::format("no client has connected to port {}", info.local_port);
+    const auto baud = endpoint.options.baud;
+    return fmt::format(fmt::runtime(endpoint.row().if_silent), fmt::arg("address", endpoint::to_text(endpoint.address)),
+                       fmt::arg("port", endpoint.address.port), fmt::arg("local_port", info.local_port),
+                       fmt::arg("baud", baud == 0 ? std::string("baud=auto found none yet")
+                                                  : fmt::format("{} here; baud=auto tries a list", baud)));
 }
 
 std::string evidence(const EndpointInfo& info, const LinkCounters* link) {
@@ -79,7 +60,7 @@ std::string evidence(const EndpointInfo& info, const LinkCounters* link) {
     const auto junk = heard.junk_bytes.value() + all.gone.junk_bytes.value() + all.stray_bytes.value();
     const auto damaged = heard.crc_error.value() + all.gone.crc_error.value();
     if (junk + damaged == 0) return {};
-    const bool is_serial = info.endpoint.scheme == Scheme::serial;
+    const bool is_serial = info.endpoint.row().form == endpoint::Form::device;
     return fmt::format("the received bytes are not MAVLink ({}, {}): {}", counted(junk, "byte"),
                        counted(damaged, "damaged frame"),
                        is_serial ? "is the baud rate right (baud=auto tries a list)?" : "is it the right port?");
@@ -88,11 +69,11 @@ std::string evidence(const EndpointInfo& info, const LinkCounters* link) {
 }  // namespace
 
 void SilenceWatch::add(EndpointId endpoint, const endpoint::Endpoint& opened, MonoTime now) {
-    if (opened.scheme == Scheme::tlog || opened.scheme == Scheme::shm) return;
-    const bool waits = opened.scheme == Scheme::udpin || opened.scheme == Scheme::tcpin;
+    if (opened.row().side == endpoint::Side::reads) return;
+    const bool waits = opened.listens();
     watched_.push_back({.endpoint = endpoint,
                         .waits_for_peers = waits,
-                        .calls = opened.scheme == Scheme::udpout || opened.scheme == Scheme::udpbcast,
+                        .calls = must_send_first(opened),
                         .since = waits ? now : MonoTime::max()});
 }
 
@@ -131,7 +112,7 @@ bool SilenceWatch::is_due(Watched& watched, const LinkCounters* link, MonoTime n
     return !watched.is_reported && watched.since <= now - patience;
 }
 
-std::vector<SilenceWatch::Silent> SilenceWatch::look(const CountersOf& counters_of, MonoTime now) {
+std::vector<SilenceWatch::Silent> SilenceWatch::poll(const CountersOf& counters_of, MonoTime now) {
     std::vector<Silent> silent;
     std::erase_if(watched_, [&](Watched& w) {
         if (std::ranges::any_of(w.links, [&](LinkId id) { return has_heard(counters_of(id)); })) return true;
@@ -145,13 +126,17 @@ std::vector<SilenceWatch::Silent> SilenceWatch::look(const CountersOf& counters_
     return silent;
 }
 
-std::string silence_text(const EndpointInfo& info, const LinkCounters* link) {
+std::string silence_reason(const EndpointInfo& info, const LinkCounters* link) {
     const auto found = evidence(info, link);
-    return fmt::format("{}: nothing heard for 5 s; {}", info.label(), found.empty() ? advice_for(info, link) : found);
+    return found.empty() ? advice_for(info, link) : found;
 }
 
-std::vector<std::string> look_for_silence(SilenceWatch& watch, const Links& links, MonoTime now) {
-    const auto silent = watch.look([&](LinkId link) { return links.counters(link); }, now);
+std::string silence_text(const EndpointInfo& info, const LinkCounters* link) {
+    return fmt::format("{}: nothing heard for 5 s; {}", info.label(), silence_reason(info, link));
+}
+
+std::vector<std::string> poll_silence(SilenceWatch& watch, const Links& links, MonoTime now) {
+    const auto silent = watch.poll([&](LinkId link) { return links.counters(link); }, now);
     std::vector<std::string> texts;
     if (silent.empty()) return texts;
     const auto endpoints = links.endpoints();

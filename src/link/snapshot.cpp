@@ -8,18 +8,9 @@ namespace mavloom::link {
 
 namespace {
 
-template <class Counters>
-std::vector<NamedCount> counts_in(const Counters& counters, const auto& table) {
-    std::vector<NamedCount> all(table.size());
-    std::ranges::transform(table, all.begin(), [&](const auto& counter) {
-        return NamedCount{counter.name, (counters.*counter.word).value()};
-    });
-    return all;
-}
-
 std::vector<NamedCount> gone_of(const EndpointCounters& counters) {
     auto all = counts_of(counters.gone);
-    all.push_back({"queued", counters.gone_queued.value()});
+    all.push_back({"queued", counters.gone_queued.value(), "frames that were still queued when their links ended"});
     return all;
 }
 
@@ -52,6 +43,7 @@ void add_links(Snapshot& snapshot, const Links& links, std::span<const LinkId> i
                                   link.endpoint,
                                   std::move(link.name),
                                   link.up,
+                                  link.rank,
                                   counts_of(*link.counters),
                                   {sources.begin(), sources.end()}});
     }

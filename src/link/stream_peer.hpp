@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -26,6 +27,7 @@ public:
 
     // Starts to read the stream, and to write the queued frames that are not too old.
     [[nodiscard]] SetupResult<void> attach(Stream stream) {
+        assert(!stream_ && "detach comes first");
         auto watch = core_.loop().watch(stream.fd(), true, false, *this);
         if (!watch) return tl::unexpected(std::move(watch).error());
         stream_ = std::move(stream);
@@ -42,6 +44,15 @@ public:
     [[nodiscard]] const Stream& stream() const noexcept { return stream_; }
 
     void schedule() override { core_.outlets.schedule(*this); }
+    void hear(ByteView bytes, WallTime time) override {
+        if (!stream_) return;
+        const auto take = sink(time);
+        parser_.feed(bytes, core_.now(), take);
+        parser_.report_junk(take);  // so that reports count all of it
+        counters.implausible_unknown.set(parser_.counters().implausible_unknown.value());
+        if (parser_.deadline()) core_.tickers.keep(*this);
+    }
+    [[nodiscard]] bool is_stream() const noexcept override { return true; }
     void on_io(net::IoEvents events) override {
         if (events.writable && blocked_) {
             blocked_ = false;
@@ -78,6 +89,7 @@ protected:
                 fail_to_write(written.error());
                 return true;
             }
+            assert(*written <= queue.bytes());
             counters.bytes_out.add(*written);
             counters.frames_out.add(queue.consume(*written));
             room -= std::min(room, *written);
@@ -85,14 +97,17 @@ protected:
         is_scheduled = false;
         return true;
     }
-    // Delivers the events that the parser still holds back.
-    void finish_parsing() { parser_.finish(sink(wall_now())); }
+    // Delivers what stages and the parser still hold back.
+    void finish_parsing() {
+        if (border) border->release(Way::in);
+        parser_.finish(sink(wall_now()));
+    }
 
     Core& core_;
     Stream stream_;
 
 private:
-    static constexpr std::size_t pieces_per_write = 128, least_read = 4096;
+    static constexpr std::size_t pieces_per_write = 128, min_read = 4096;
 
     void release() noexcept {
         core_.outlets.forget(*this);
@@ -101,6 +116,7 @@ private:
         stream_ = {};
         blocked_ = false;
         queue.rewind();
+        if (border) border->drop(Way::in);
     }
     void read() {
         const auto most = core_.reads_all ? Core::stream_buffer_bytes : budget_.limit();
@@ -112,13 +128,14 @@ private:
         }
         last_heard = core_.now();
         if (!static_cast<Self*>(this)->accepts(room.first(*count))) return;
+        const ByteView bytes = room.first(*count);
         budget_.spend(*count, *count, [&] {
-            const auto take = sink(wall_now());
-            parser_.feed(room.first(*count), core_.now(), take);
-            parser_.report_junk(take);  // so that reports count all of it
+            if (!border) [[likely]] {
+                hear(bytes, wall_now());
+            } else {
+                border->take(Way::in, {.bytes = bytes, .time = wall_now()});
+            }
         });
-        counters.implausible_unknown.set(parser_.counters().implausible_unknown.value());
-        if (parser_.deadline()) core_.tickers.keep(*this);
     }
     void fail_to_write(net::IoError error) {
         if (error != net::IoError::would_block && error != net::IoError::no_buffers)
@@ -134,7 +151,7 @@ private:
 
     net::WatchId watch_;
     wire::StreamParser parser_;
-    ReadBudget budget_{least_read, Core::stream_buffer_bytes};
+    ReadBudget budget_{min_read, Core::stream_buffer_bytes};
     bool blocked_ = false;  // the kernel accepts no more
 };
 

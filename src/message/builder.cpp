@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mavloom/base/suggest.hpp"
+#include "mavloom/base/text.hpp"
 #include "mavloom/message/visit.hpp"
 #include "message/parse.hpp"
 
@@ -52,19 +53,12 @@ std::optional<ParsedInteger> whole(double value) noexcept {
     return ParsedInteger{value < 0, static_cast<std::uint64_t>(std::abs(value))};
 }
 
-std::string_view trim(std::string_view text) noexcept {
-    constexpr std::string_view spaces = " \t";
-    const auto first = text.find_first_not_of(spaces);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(spaces) - first + 1);
-}
-
 // Calls `each` for every part between separators. Stops at the first error.
 template <class F>
 SetupResult<void> for_each_part(std::string_view list, char separator, F each) {
     for (;;) {
         const auto end = list.find(separator);
-        if (auto done = each(trim(list.substr(0, end))); !done) return done;
+        if (auto done = each(trimmed(list.substr(0, end))); !done) return done;
         if (end == std::string_view::npos) return {};
         list.remove_prefix(end + 1);
     }
@@ -180,7 +174,7 @@ SetupResult<void> MessageBuilder::set_text(const Field& field, std::string_view 
 
 SetupResult<void> MessageBuilder::set_from_text(const Field& field, std::string_view value) {
     if (field.type == dialect::FieldType::char8) return set_text(field, value);
-    value = trim(value);
+    value = trimmed(value);
     if (!field.is_array()) return set_one_from_text(*this, field, value, 0);
     const auto expected = fmt::format("expected [a,b,...] with {} elements", field.count());
     if (!is_bracketed(value)) return refuse(*definition_, field, expected);
@@ -193,7 +187,7 @@ SetupResult<void> MessageBuilder::set_from_text(const Field& field, std::string_
 }
 
 SetupResult<void> MessageBuilder::set_element_from_text(const Field& field, std::string_view value, std::size_t index) {
-    return set_one_from_text(*this, field, trim(value), index);
+    return set_one_from_text(*this, field, trimmed(value), index);
 }
 
 }  // namespace mavloom::message

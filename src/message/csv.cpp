@@ -4,10 +4,10 @@
 
 #include "mavloom/message/format.hpp"
 #include "mavloom/message/modes.hpp"
+#include "mavloom/message/utf8.hpp"
 #include "mavloom/message/view.hpp"
 #include "mavloom/message/visit.hpp"
 #include "message/cursor.hpp"
-#include "message/utf8.hpp"
 
 namespace mavloom::message {
 namespace {

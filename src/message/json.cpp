@@ -8,9 +8,10 @@
 
 #include "mavloom/message/format.hpp"
 #include "mavloom/message/modes.hpp"
+#include "mavloom/message/utf8.hpp"
 #include "mavloom/message/visit.hpp"
+#include "message/full_payload.hpp"
 #include "message/number.hpp"
-#include "message/utf8.hpp"
 
 namespace mavloom::message {
 namespace {
@@ -159,28 +160,6 @@ char* write_field_value(char* at, const std::uint8_t* from, dialect::FieldType t
     return visit_type(type, [&](auto tag) { return write_numbers<decltype(tag)>(at, from, array_length); });
 }
 
-// A payload extended to its full length: bytes that the sender cut off are 0. The given bytes must outlive it.
-class FullPayload {
-public:
-    FullPayload(const dialect::Message& message, ByteView payload) noexcept {
-        const std::size_t length = message.wire.max_length;
-        if (payload.size() >= length) {
-            data_ = payload.data();
-            return;
-        }
-        if (!payload.empty()) std::memcpy(copy_.data(), payload.data(), payload.size());
-        std::memset(copy_.data() + payload.size(), 0, length - payload.size());
-    }
-    FullPayload(const FullPayload&) = delete;
-    FullPayload& operator=(const FullPayload&) = delete;
-
-    [[nodiscard]] const std::uint8_t* data() const noexcept { return data_; }
-
-private:
-    std::array<std::uint8_t, wire::max_payload_length> copy_;  // NOLINT: initialised only as far as needed
-    const std::uint8_t* data_ = copy_.data();
-};
-
 char* write_key(char* at, std::string_view name) noexcept {
     *at++ = '"';
     at = write_text(at, name);
@@ -215,7 +194,7 @@ void commit(TextBuffer& buffer, const char* end) { buffer.resize(static_cast<std
 constexpr std::size_t header_room = 160 + 6 * number_room;
 
 char* write_fields(char* at, const dialect::Message& message, ByteView payload) noexcept {
-    const FullPayload full(message, payload);
+    const FullPayload full(payload, message.wire.max_length);
     for (const auto& field : message.fields) {
         at = write_key(at, field.name);
         at = write_field_value(at, full.data() + field.offset, field.type, field.array_length);
@@ -356,7 +335,7 @@ void JsonFormatter::append(TextBuffer& buffer, const Received& received) const {
     at = write_literal(at, ",\"fields\":{");
     const auto& fields = received.message->fields;
     if (!fields.empty()) --at;  // each step includes the character before its key
-    const FullPayload full(*received.message, received.frame.payload());
+    const FullPayload full(received.frame.payload(), received.message->wire.max_length);
     const auto* step = steps_.data() + prepared->first_step;
     for (std::size_t i = 0; i < fields.size(); ++i, ++step) {
         // Copies the whole step, which is cheaper than copying only the length of its key.

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "mavloom/base/text.hpp"
 #include "mavloom/dialect/dialect.hpp"
 #include "mavloom/msg/enums/mav_autopilot.hpp"
 #include "mavloom/msg/enums/mav_mode_flag.hpp"
@@ -52,7 +53,7 @@ char next_letter(std::string_view& name) noexcept {
         const char c = name.front();
         name.remove_prefix(1);
         if (ignored.find(c) != std::string_view::npos) continue;
-        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+        return lower(c);
     }
     return 0;
 }

@@ -80,14 +80,14 @@ char* write_decimal(char* at, std::uint64_t significand, int exponent) noexcept 
 
 // ---- float32 in plain notation
 
-constexpr int fraction_bits = 23;                  // stored bits; the leading 1 is implicit
-constexpr std::uint32_t least_plain = 0x38d1b717;  // 1e-4f; Python writes smaller floats with an exponent
-constexpr std::uint32_t end_plain = 0x4b000000;    // 2^23; all larger floats are integers
+constexpr int fraction_bits = 23;                // stored bits; the leading 1 is implicit
+constexpr std::uint32_t min_plain = 0x38d1b717;  // 1e-4f; Python writes smaller floats with an exponent
+constexpr std::uint32_t end_plain = 0x4b000000;  // 2^23; all larger floats are integers
 
 // True for floats in the range of plain notation.
 // Excludes powers of two, because their two neighbours are at different distances.
 bool is_plain(std::uint32_t bits) noexcept {
-    return bits - least_plain < end_plain - least_plain && bits << (32 - fraction_bits) != 0;
+    return bits - min_plain < end_plain - min_plain && bits << (32 - fraction_bits) != 0;
 }
 
 // Scale factors for one exponent. After multiplication by 10^decimals, neighbouring floats are 0.1 to 1 apart.
@@ -98,10 +98,10 @@ struct PlainScale {
 };
 
 consteval auto make_plain_scales() {
-    std::array<PlainScale, (end_plain >> fraction_bits) - (least_plain >> fraction_bits)> scales{};
+    std::array<PlainScale, (end_plain >> fraction_bits) - (min_plain >> fraction_bits)> scales{};
     for (std::size_t i = 0; i < scales.size(); ++i) {
-        const auto exponent = static_cast<int>((least_plain >> fraction_bits) + i) - 127 - fraction_bits;  // -37 to -1
-        const int decimals = -exponent * 1233 >> 12;                                                       // log10(2)
+        const auto exponent = static_cast<int>((min_plain >> fraction_bits) + i) - 127 - fraction_bits;  // -37 to -1
+        const int decimals = -exponent * 1233 >> 12;                                                     // log10(2)
         std::uint32_t power_of_5 = 1;
         for (int n = 0; n < decimals; ++n) power_of_5 *= 5;
         scales[i] = {power_of_5, static_cast<std::uint8_t>(1 - exponent - decimals),
@@ -122,7 +122,7 @@ struct Decimal {
 // This is Schubfach's method (Giulietti, 2020) without its table of powers, because in this range all products are
 // exact.
 Decimal shortest_of(std::uint32_t bits) noexcept {
-    const auto& scale = plain_scales[(bits >> fraction_bits) - (least_plain >> fraction_bits)];
+    const auto& scale = plain_scales[(bits >> fraction_bits) - (min_plain >> fraction_bits)];
     const auto fraction = (bits & ((1u << fraction_bits) - 1)) | 1u << fraction_bits;
     const std::uint64_t one = std::uint64_t{1} << scale.unit;
     const std::uint64_t value = std::uint64_t{fraction} * 2 * scale.half_gap;

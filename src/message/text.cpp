@@ -7,13 +7,13 @@
 
 #include "mavloom/message/format.hpp"
 #include "mavloom/message/modes.hpp"
+#include "mavloom/message/utf8.hpp"
 #include "mavloom/message/view.hpp"
 #include "mavloom/message/visit.hpp"
 #include "message/command_params.hpp"
 #include "message/cursor.hpp"
 #include "message/invalid.hpp"
 #include "message/scale.hpp"
-#include "message/utf8.hpp"
 
 namespace mavloom::message {
 namespace {
@@ -255,18 +255,21 @@ void put_mode(Cursor& out, const MessageView& view, const dialect::Field& field)
     out.put(')');
 }
 
+void put_label(Cursor& out, const dialect::Field& field, const std::optional<CommandParams::Param>& param) {
+    out.put(field.name);
+    if (!param || param->definition->label.empty()) return;
+    out.put('(');
+    put_visible(out, param->definition->label, false);
+    out.put(')');
+}
+
 void put_fields(Cursor& out, const MessageView& view, const dialect::Dialect& dialect) {
     const CommandParams params(view, dialect);
     const bool is_heartbeat = has_mode(view.definition());
     for (const auto& field : view.definition().fields) {
         out.put("  ");
-        out.put(field.name);
         const auto param = params.find(field);
-        if (param && !param->definition->label.empty()) {
-            out.put('(');
-            put_visible(out, param->definition->label, false);
-            out.put(')');
-        }
+        put_label(out, field, param);
         out.put('=');
         if (param) {
             put_param_value(out, view, *param);
@@ -311,6 +314,41 @@ void put_unknown(Cursor& out, const wire::FrameView& frame) {
 }
 
 }  // namespace
+
+bool has_elements(const dialect::Field& field) noexcept {
+    return field.is_array() && !field.is_text() && !is_opaque(field);
+}
+
+void append_field_label(TextBuffer& buffer, const MessageView& view, const dialect::Field& field,
+                        const dialect::Dialect& dialect) {
+    Cursor out(buffer);
+    put_label(out, field, CommandParams(view, dialect).find(field));
+}
+
+void append_field_value(TextBuffer& buffer, const MessageView& view, const dialect::Field& field,
+                        const dialect::Dialect& dialect) {
+    Cursor out(buffer);
+    if (const auto param = CommandParams(view, dialect).find(field)) put_param_value(out, view, *param);
+    else put_value(out, view, field);
+    if (has_mode(view.definition())) put_mode(out, view, field);
+}
+
+void append_element(TextBuffer& buffer, const MessageView& view, const dialect::Field& field, std::size_t index) {
+    Cursor out(buffer);
+    visit_type(field.type, [&](auto tag) {
+        const auto scale = std::is_integral_v<decltype(tag)> ? scale_of(field) : Scale{field.units};
+        if (put_element<decltype(tag)>(out, view, field, scale, index)) put_units(out, scale.units);
+    });
+}
+
+double scaled_number(const MessageView& view, const dialect::Field& field, std::size_t index) noexcept {
+    if (is_invalid(view, field, index)) return std::nan("");
+    const auto value = view.number(field, index);
+    const bool is_whole = field.type != dialect::FieldType::f32 && field.type != dialect::FieldType::f64;
+    if (!is_whole) return value;
+    const auto scale = scale_of(field);
+    return value * scale.factor / std::pow(10, scale.decimals);
+}
 
 void append_text(TextBuffer& buffer, const Received& received, const dialect::Dialect& dialect) {
     Cursor out(buffer);

@@ -23,13 +23,18 @@ BlockQueue::Pushed BlockQueue::push(ByteView block, std::uint8_t block_class, st
 [[gnu::noinline]] BlockQueue::Pushed BlockQueue::push_when_full(ByteView block, std::uint8_t block_class,
                                                                 std::uint64_t key, MonoTime now) {
     std::uint32_t dropped = 0;
-    if (!make_room(block.size(), block_class, key, dropped)) return {.dropped = dropped + 1};
+    if (!make_room(block.size(), block_class, key, dropped)) {
+        ++dropped_[block_class];
+        return {.dropped = dropped + 1};
+    }
     append(block, block_class, key, now);
     return {.queued = true, .dropped = dropped};
 }
 
 void BlockQueue::append(ByteView block, std::uint8_t block_class, std::uint64_t key, MonoTime now) {
     if (tail_ + block.size() > capacity_ || entries_.size() == entries_.capacity()) reserve(block.size());
+    assert(tail_ + block.size() <= capacity_ && entries_.size() < entries_.capacity());
+    assert(tail_ <= UINT32_MAX && "offsets have 32 bits");
     std::memcpy(memory_.get() + tail_, block.data(), block.size());
     entries_.push_back({.key = key,
                         .queued = now,
@@ -41,6 +46,7 @@ void BlockQueue::append(ByteView block, std::uint8_t block_class, std::uint64_t 
     bytes_ += block.size();
     class_bytes_[block_class] += block.size();
     ++blocks_;
+    assert(bytes_ <= limits_.max_bytes && bytes_ <= tail_ && blocks_ <= entries_.size());
     if (jammed_ && key != 0) note_key(key, entries_.size() - 1);
 }
 
@@ -88,12 +94,14 @@ bool BlockQueue::drop_superseded() noexcept {
 std::size_t BlockQueue::droppable(std::uint8_t block_class) const noexcept {
     std::size_t sum = 0;
     for (std::size_t c = block_class; c < classes; ++c) sum += class_bytes_[c];
+    assert(sum <= bytes_);
     if (blocks_ != 0 && pinned(head_) && entries_[head_].block_class >= block_class) sum -= entries_[head_].size;
     return sum;
 }
 
 // Advances the class's search position to its oldest droppable block. Returns false if there is none.
 bool BlockQueue::oldest(std::uint8_t block_class) noexcept {
+    assert(block_class < classes);
     std::size_t i = std::max(oldest_[block_class], head_);
     while (i < entries_.size() && (!entries_[i].live || entries_[i].block_class != block_class || pinned(i))) ++i;
     oldest_[block_class] = i;
@@ -101,10 +109,13 @@ bool BlockQueue::oldest(std::uint8_t block_class) noexcept {
 }
 
 void BlockQueue::drop(std::size_t index) noexcept {
+    assert(index >= head_ && index < entries_.size() && !pinned(index));
     Entry& entry = entries_[index];
+    assert(entry.live && entry.size <= class_bytes_[entry.block_class] && entry.size <= bytes_);
     entry.live = 0;
     bytes_ -= entry.size;
     class_bytes_[entry.block_class] -= entry.size;
+    ++dropped_[entry.block_class];
     --blocks_;
     if (blocks_ == 0) {
         reset();
@@ -115,6 +126,7 @@ void BlockQueue::drop(std::size_t index) noexcept {
 
 void BlockQueue::drop_from_head() noexcept {
     while (head_ < entries_.size() && !entries_[head_].live) ++head_;
+    assert(head_ < entries_.size() && "there is a live block");
 }
 
 void BlockQueue::reset() noexcept {
@@ -199,6 +211,7 @@ void BlockQueue::reserve_bytes(std::size_t size) {
 
 // Closes the gaps between blocks. Moves to a new buffer if `capacity` (bytes) differs from the old one.
 void BlockQueue::move_blocks(std::size_t capacity) {
+    assert(capacity >= bytes_);
     std::unique_ptr<std::uint8_t[]> other;
     if (capacity != capacity_) other = std::make_unique_for_overwrite<std::uint8_t[]>(capacity);
     std::uint8_t* const to = other ? other.get() : memory_.get();
@@ -210,6 +223,7 @@ void BlockQueue::move_blocks(std::size_t capacity) {
         entry.offset = static_cast<std::uint32_t>(tail);
         tail += entry.size;
     }
+    assert(tail == bytes_);
     if (other) memory_ = std::move(other);
     capacity_ = capacity;
     tail_ = tail;
@@ -219,6 +233,7 @@ void BlockQueue::remove_dead_entries() {
     const auto first = entries_.begin() + static_cast<std::ptrdiff_t>(head_);
     const auto end = std::copy_if(first, entries_.end(), entries_.begin(), [](const Entry& e) { return e.live != 0; });
     entries_.erase(end, entries_.end());
+    assert(entries_.size() == blocks_);
     head_ = 0;
     oldest_.fill(0);
     if (jammed_) index_keys();
@@ -235,6 +250,7 @@ void BlockQueue::index_keys() {
 }
 
 void BlockQueue::note_key(std::uint64_t key, std::size_t index) {
+    assert(key != 0 && index < entries_.size());
     std::uint32_t& place = slot_of(key);
     if (place != 0) superseded_.push_back(place - 1);
     else ++keys_;
@@ -251,6 +267,7 @@ void BlockQueue::grow_index() {
 
 // Open addressing. The table is never more than half full. Returns the key's place, which is 0 if it has none yet.
 std::uint32_t& BlockQueue::slot_of(std::uint64_t key) noexcept {
+    assert(std::has_single_bit(newest_.size()) && keys_ * 2 <= newest_.size());
     const std::size_t mask = newest_.size() - 1;
     std::size_t i = secret_hash(key) & mask;
     while (newest_[i] != 0 && entries_[newest_[i] - 1].key != key) i = (i + 1) & mask;
@@ -258,6 +275,7 @@ std::uint32_t& BlockQueue::slot_of(std::uint64_t key) noexcept {
 }
 
 BlockQueue::Gathered BlockQueue::gather(Position& from, std::size_t max_bytes, std::span<iovec> room) const noexcept {
+    assert(from.index >= head_ || !entries_[from.index].live);
     Gathered sum;
     std::size_t i = from.index;
     for (; i < entries_.size(); ++i) {
@@ -288,11 +306,13 @@ void BlockQueue::pop(Position until) noexcept {
     for (; head_ < until.index; ++head_) {
         const Entry& entry = entries_[head_];
         if (!entry.live) continue;
+        assert(entry.size <= class_bytes_[entry.block_class] && entry.size <= bytes_);
         bytes_ -= entry.size;
         class_bytes_[entry.block_class] -= entry.size;
         --blocks_;
     }
     begun_ = 0;
+    assert((blocks_ == 0) == (bytes_ == 0));
     if (blocks_ == 0) {
         reset();
     } else {
@@ -304,11 +324,13 @@ std::size_t BlockQueue::pieces(std::span<iovec> room, std::size_t max_bytes) con
     Position from = front();
     const std::size_t most = max_bytes < SIZE_MAX - begun_ ? max_bytes + begun_ : SIZE_MAX;
     const std::size_t count = gather(from, most, room).pieces;
+    assert(count == 0 || begun_ < room[0].iov_len);
     if (count != 0) room[0] = {static_cast<std::uint8_t*>(room[0].iov_base) + begun_, room[0].iov_len - begun_};
     return count;
 }
 
 std::size_t BlockQueue::consume(std::size_t bytes) noexcept {
+    assert(bytes <= bytes_ - begun_);
     begun_ += bytes;
     std::size_t whole = 0, left = begun_;
     std::size_t index = head_;
@@ -320,6 +342,7 @@ std::size_t BlockQueue::consume(std::size_t bytes) noexcept {
     }
     if (whole != 0) pop({index});
     if (blocks_ != 0) begun_ = left;
+    assert(begun_ == 0 || begun_ < entries_[head_].size);
     return whole;
 }
 
@@ -327,6 +350,7 @@ std::size_t BlockQueue::consume(std::size_t bytes) noexcept {
 // makes the next jam index all blocks again.
 void BlockQueue::rewind() noexcept {
     if (begun_ == 0) return;
+    assert(entries_[head_].live);
     begun_ = 0;
     oldest_[entries_[head_].block_class] = head_;
     jammed_ = false;

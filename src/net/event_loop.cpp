@@ -6,6 +6,7 @@
 #include <sys/timerfd.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cerrno>
 #include <ctime>
 
@@ -56,6 +57,7 @@ SetupResult<WatchId> EventLoop::watch(int fd, bool readable, bool writable, IoHa
         watches_.emplace_back();
     }
     const std::uint32_t slot = free_.back();
+    assert(watches_[slot].handler == nullptr && watches_[slot].generation != 0);
     const WatchId id{slot, watches_[slot].generation};
     epoll_event event{};
     event.events = interest(readable, writable);
@@ -90,12 +92,14 @@ void EventLoop::unwatch(WatchId& id) noexcept {
         watch->fd = -1;
         watch->generation = std::max(watch->generation + 1, 1u);
         free_.push_back(id.slot);
+        assert(free_.size() <= watches_.size());
     }
     id = {};
 }
 
 TimerId EventLoop::start_timer(MonoTime when, TimerHandler& handler) {
     const TimerId id{when, ++last_timer_};
+    assert(!timers_.contains(id));
     timers_.emplace(id, &handler);
     return id;
 }

@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 #include <ifaddrs.h>
 #include <net/if.h>
+#include <sys/socket.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+
+#include "mavloom/net/fd.hpp"
 
 namespace mavloom::net {
 
@@ -45,14 +48,38 @@ static void read_addresses(std::vector<Address>& own, std::vector<Address>& broa
     freeifaddrs(list);
 }
 
+// The address from which packets to other networks leave. A datagram socket that is connected sends nothing.
+static std::optional<Address> address_of_default_route() {
+    const auto far = Address::parse("192.0.2.1", 9);  // of no machine: RFC 5737
+    const Fd socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+    if (!socket || ::connect(socket.get(), far->data(), far->size()) != 0) return std::nullopt;
+    Address own;
+    socklen_t length = Address::capacity;
+    if (::getsockname(socket.get(), own.writable(), &length) != 0) return std::nullopt;
+    own.normalize();
+    return own.with_port(0);
+}
+
+static bool is_link_local(const Address& address) {
+    return address.scope() != 0 || address.host_text().starts_with("169.254.");
+}
+
+std::optional<Address> address_on_network() {
+    if (auto address = address_of_default_route(); address && !address->is_loopback()) return address;
+    std::vector<Address> own, broadcasts;
+    read_addresses(own, broadcasts);
+    std::erase_if(own, [](const Address& a) { return a.is_loopback() || is_link_local(a); });
+    std::stable_partition(own.begin(), own.end(), [](const Address& a) { return a.is_v4(); });
+    return own.empty() ? std::nullopt : std::optional(own.front());
+}
+
 bool OwnAddresses::find(const std::vector<Address>& in, const Address& address, MonoTime now) {
     const Address host = address.with_port(0);
-    const auto is_known = [&] { return std::find(in.begin(), in.end(), host) != in.end(); };
-    if (is_known()) return true;
-    if (read_at_ != MonoTime{} && now - read_at_ < refresh_interval) return false;
-    read_addresses(known_, broadcasts_);
-    read_at_ = now;
-    return is_known();
+    if (read_at_ == MonoTime{} || now - read_at_ >= refresh_interval) {
+        read_addresses(known_, broadcasts_);
+        read_at_ = now;
+    }
+    return std::find(in.begin(), in.end(), host) != in.end();
 }
 
 bool OwnAddresses::contains(const Address& address, MonoTime now) { return find(known_, address, now); }

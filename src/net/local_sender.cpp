@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <cerrno>
 #include <charconv>
 #include <cstddef>
@@ -39,6 +40,7 @@ std::string LocalSender::own_address() const {
 }
 
 IoResult<std::size_t> LocalSender::send(SendBatch& batch, std::size_t first) noexcept {
+    assert(first < batch.size());
     const auto left = static_cast<unsigned>(batch.size() - first);
     const int count = ::sendmmsg(fd_.get(), batch.messages_.data() + first, left, MSG_NOSIGNAL);
     if (count < 0) return tl::unexpected(io_error_of(errno));

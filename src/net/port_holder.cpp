@@ -49,9 +49,12 @@ std::optional<Address> listed_address(std::string_view text) {
     return Address::parse(host.data(), static_cast<std::uint16_t>(number(text.substr(colon + 1))));
 }
 
-bool conflict(const Address& a, const Address& b) {
-    if (a.port() != b.port()) return false;
-    return a.is_any() || b.is_any() || a.with_scope(0).unmapped() == b.with_scope(0).unmapped();
+// A socket on 0.0.0.0 has the port of every IPv4 address; one on :: usually has it of both families.
+bool has_all_of(const Address& any, const Address& other) { return any.is_any() && (any.is_v6() || other.is_v4()); }
+
+bool conflict(const Address& listed, const Address& wanted) {
+    const auto a = listed.with_scope(0).unmapped(), b = wanted.with_scope(0).unmapped();
+    return a.port() == b.port() && (a == b || has_all_of(a, b) || has_all_of(b, a));
 }
 
 // Adds the socket of one line of /proc/net/udp or tcp if it holds the address, as its link in /proc/PID/fd shows it.
@@ -104,11 +107,14 @@ std::string port_holder(Transport transport, const Address& local) {
     return {};
 }
 
-tl::unexpected<SetupError> bind_error(std::string_view what, int err, Transport transport, const Address& local) {
-    auto error = system_error(what, err);
-    if (err != EADDRINUSE) return error;
-    if (const auto holder = port_holder(transport, local); !holder.empty()) error.value().text += " by " + holder;
-    return error;
+tl::unexpected<SetupError> BindErrors::complete(SetupError error, const Address& local) {
+    if (error.sys_errno != EADDRINUSE) return tl::unexpected(std::move(error));
+    if (searched_ != local) {
+        searched_ = local;
+        holder_ = port_holder(transport_, local);
+    }
+    if (!holder_.empty()) error.text += " by " + holder_;
+    return tl::unexpected(std::move(error));
 }
 
 }  // namespace mavloom::net

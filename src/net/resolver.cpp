@@ -5,6 +5,7 @@
 #include <netdb.h>
 
 #include <algorithm>
+#include <cassert>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
@@ -109,6 +110,7 @@ void Resolver::State::answer_questions(const std::shared_ptr<State>& state) {
     for (;;) {
         state->changed.wait(lock, [&] { return state->stopping || !state->questions.empty(); });
         if (state->stopping) return;
+        assert(!state->looking && "one question at a time");
         auto question = std::move(state->questions.front());
         state->questions.pop_front();
         state->looking = true;

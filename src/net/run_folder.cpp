@@ -73,17 +73,17 @@ std::optional<uid_t> run_folder_owner() {
 
 SetupResult<LocalSender> connect_in_run_folder(std::string_view name, std::string_view suffix) {
     if (auto checked = check_name(name); !checked) return tl::unexpected(std::move(checked.error()));
-    std::string looked_at;
+    std::string paths;
     std::optional<SetupError> why_not;
     for (const auto& folder : run_folders()) {
         const auto path = folder / fmt::format("{}.{}", name, suffix);
         auto sender = LocalSender::connect(path);
         if (sender) return sender;
         if (!why_not && sender.error().code != SetupCode::not_found) why_not = std::move(sender.error());
-        looked_at += fmt::format("{}{}", looked_at.empty() ? "" : " or ", path.string());
+        paths += fmt::format("{}{}", paths.empty() ? "" : " or ", path.string());
     }
     if (why_not) return tl::unexpected(std::move(*why_not));
-    return setup_error(SetupCode::not_found, fmt::format("cannot send to {}: {}", looked_at, std::strerror(ENOENT)));
+    return setup_error(SetupCode::not_found, fmt::format("cannot send to {}: {}", paths, std::strerror(ENOENT)));
 }
 
 }  // namespace mavloom::net

@@ -14,6 +14,7 @@
 #include <sys/sysmacros.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cerrno>
 #include <climits>
 #include <utility>
@@ -129,6 +130,7 @@ void SerialPort::close() noexcept {
 }
 
 IoResult<std::size_t> SerialPort::read(ByteSpan room) noexcept {
+    assert(!room.empty() && "0 bytes mean that the port is gone");
     const ssize_t count = ::read(fd(), room.data(), room.size());
     if (count < 0) return tl::unexpected(io_error_of(errno));
     if (count == 0) return tl::unexpected(IoError::closed);
@@ -136,6 +138,7 @@ IoResult<std::size_t> SerialPort::read(ByteSpan room) noexcept {
 }
 
 IoResult<std::size_t> SerialPort::write(std::span<const iovec> pieces) noexcept {
+    assert(!pieces.empty());
     const auto most = static_cast<int>(std::min<std::size_t>(pieces.size(), IOV_MAX));
     const ssize_t count = ::writev(fd(), pieces.data(), most);
     if (count < 0) return tl::unexpected(io_error_of(errno));

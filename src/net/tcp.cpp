@@ -9,17 +9,17 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cerrno>
 
-#include "mavloom/net/port_holder.hpp"
 #include "net/socket_options.hpp"
 
 namespace mavloom::net {
 
 // Limit for unsent bytes in the kernel. Everything beyond it waits in the owner's queue, where it can expire.
-static constexpr int unsent_bytes = 128 * 1024;
+static constexpr int max_unsent_bytes = 128 * 1024;
 
-static void set_stream_options(int fd) noexcept {
+void set_stream_options(int fd, int unsent_bytes) noexcept {
     set_option(fd, IPPROTO_TCP, TCP_NODELAY, 1);
     set_option(fd, IPPROTO_TCP, TCP_NOTSENT_LOWAT, unsent_bytes);
     set_option(fd, SOL_SOCKET, SO_KEEPALIVE, 1);
@@ -31,7 +31,7 @@ static void set_stream_options(int fd) noexcept {
 SetupResult<TcpStream> TcpStream::start_connect(const Address& remote, const std::optional<Address>& local) {
     Fd fd(::socket(remote.family(), SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
     if (!fd) return system_error("cannot create a TCP socket", errno);
-    set_stream_options(fd.get());
+    set_stream_options(fd.get(), max_unsent_bytes);
     if (local) {
         set_option(fd.get(), SOL_SOCKET, SO_REUSEADDR, 1);
         if (::bind(fd.get(), local->data(), local->size()) != 0)
@@ -57,6 +57,7 @@ bool TcpStream::wait_connected(std::chrono::milliseconds limit) const noexcept {
 }
 
 IoResult<std::size_t> TcpStream::read(ByteSpan room) noexcept {
+    assert(!room.empty() && "0 bytes mean that the stream has ended");
     const ssize_t count = ::recv(fd_.get(), room.data(), room.size(), 0);
     if (count < 0) return tl::unexpected(io_error_of(errno));
     if (count == 0) return tl::unexpected(IoError::closed);
@@ -64,6 +65,7 @@ IoResult<std::size_t> TcpStream::read(ByteSpan room) noexcept {
 }
 
 IoResult<std::size_t> TcpStream::write(std::span<const iovec> pieces) noexcept {
+    assert(!pieces.empty());
     msghdr header{};
     header.msg_iov = const_cast<iovec*>(pieces.data());  // only read by sendmsg
     header.msg_iovlen = pieces.size();
@@ -82,7 +84,7 @@ SetupResult<TcpListener> TcpListener::open(const Address& local, bool v6_only) {
     // refused.
     set_option(fd, SOL_SOCKET, SO_REUSEADDR, 1);
     if (::bind(fd, local.data(), local.size()) != 0 || ::listen(fd, SOMAXCONN) != 0) {
-        return bind_error(fmt::format("cannot listen on TCP {}", local.text()), errno, Transport::tcp, local);
+        return system_error(fmt::format("cannot listen on TCP {}", local.text()), errno);
     }
     auto bound = local_address(fd);
     if (!bound) return tl::unexpected(std::move(bound).error());
@@ -112,7 +114,7 @@ IoResult<TcpStream> TcpListener::accept() noexcept {
     Fd fd(::accept4(fd_.get(), remote.writable(), &length, SOCK_NONBLOCK | SOCK_CLOEXEC));
     if (!fd) return tl::unexpected(io_error_of(errno));
     remote.normalize();
-    set_stream_options(fd.get());
+    set_stream_options(fd.get(), max_unsent_bytes);
     return TcpStream(std::move(fd), remote);
 }
 

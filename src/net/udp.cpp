@@ -13,7 +13,6 @@
 #include <cstring>
 #include <ctime>
 
-#include "mavloom/net/port_holder.hpp"
 #include "net/kernel_time.hpp"
 #include "net/socket_options.hpp"
 
@@ -77,6 +76,7 @@ ReceiveBatch::~ReceiveBatch() {
 
 // Restores the buffer lengths, which the kernel replaced with the used lengths.
 void ReceiveBatch::rearm(std::size_t count) noexcept {
+    assert(count <= slots);
     for (std::size_t i = 0; i < count; ++i) {
         msghdr& header = headers_->messages[i].msg_hdr;
         header.msg_namelen = Address::capacity;
@@ -102,7 +102,7 @@ std::size_t ReceiveBatch::bytes() const noexcept {
 SendBatch::SendBatch() : messages_(max_datagrams), iovecs_(max_pieces) {}
 
 void SendBatch::add(const Address* to, std::size_t pieces) noexcept {
-    assert(!full() && pieces_ + pieces <= max_pieces);
+    assert(!full() && pieces != 0 && pieces_ + pieces <= max_pieces);
     msghdr& header = messages_[count_++].msg_hdr;
     header = {};
     header.msg_iov = &iovecs_[pieces_];
@@ -171,11 +171,8 @@ SetupResult<UdpSocket> UdpSocket::open(const Address& local, const UdpOptions& o
     if (auto done = bind_to_device(fd, options.device); !done) return tl::unexpected(std::move(done).error());
     if (auto done = choose_group_interface(fd, local.is_v6(), options.group_interface); !done)
         return tl::unexpected(std::move(done).error());
-    if (::bind(fd, local.data(), local.size()) != 0) {
-        const int error = errno;
-        const auto what = fmt::format("cannot bind UDP {}", local.text());
-        return options.names_holder ? bind_error(what, error, Transport::udp, local) : system_error(what, error);
-    }
+    if (::bind(fd, local.data(), local.size()) != 0)
+        return system_error(fmt::format("cannot bind UDP {}", local.text()), errno);
     if (options.group) {
         if (auto done = join(fd, *options.group, options.group_interface); !done)
             return tl::unexpected(std::move(done).error());
@@ -187,17 +184,20 @@ SetupResult<UdpSocket> UdpSocket::open(const Address& local, const UdpOptions& o
 }
 
 IoResult<std::size_t> UdpSocket::receive(ReceiveBatch& batch, std::size_t most) noexcept {
+    assert(most != 0);
     batch.rearm(batch.count_);
     batch.count_ = 0;
     const int count = recvmmsg(fd_.get(), batch.headers_->messages.data(),
                                static_cast<unsigned>(std::min(most, ReceiveBatch::slots)), 0, nullptr);
     if (count < 0) return tl::unexpected(io_error_of(errno));
     batch.count_ = static_cast<std::size_t>(count);
+    assert(batch.count_ <= most);
     for (std::size_t i = 0; i < batch.count_; ++i) batch.headers_->from[i].normalize();
     return batch.count_;
 }
 
 IoResult<std::size_t> UdpSocket::send(SendBatch& batch, std::size_t first) noexcept {
+    assert(first < batch.size());
     const auto left = static_cast<unsigned>(batch.size() - first);
     const int count = sendmmsg(fd_.get(), batch.messages_.data() + first, left, MSG_NOSIGNAL);
     if (count < 0) return tl::unexpected(io_error_of(errno));

@@ -14,14 +14,14 @@ double TrafficRow::rate_hz() const noexcept {
 double TrafficRow::recent_rate_hz(WallTime now) const noexcept {
     const bool is_long_ago = last - older.time > 3 * rate_window && count > newer.count;
     const Mark& from = is_long_ago ? newer : older;
-    const std::chrono::duration<double> silence = now - last;
+    const std::chrono::duration<double> quiet = now - last;
     std::chrono::duration<double> span = last - from.time;
     const auto gaps = static_cast<double>(count - from.count);
     // Silence after a burst lowers the rate, so include the silence in the span.
-    if (span < rate_window && silence > 4 * span / gaps) span += silence;
+    if (span < rate_window && quiet > 4 * span / gaps) span += quiet;
     if (span.count() <= 0 || gaps == 0) return 0;
     const double rate = gaps / span.count();
-    return silence <= 2 * rate_window ? rate : std::min(rate, 1 / silence.count());
+    return quiet <= 2 * rate_window ? rate : std::min(rate, 1 / quiet.count());
 }
 
 Nanoseconds TrafficRow::mean_gap() const noexcept {
@@ -29,12 +29,10 @@ Nanoseconds TrafficRow::mean_gap() const noexcept {
 }
 
 // After a pause, the older mark is the last frame before the pause. If the clock was set back, both marks are reset.
-static void move_marks(TrafficRow& row, TrafficRow::Mark now) noexcept {
-    const auto age = now.time - row.newer.time;
-    row.older = age < Nanoseconds{}                 ? now
-                : age > 2 * TrafficRow::rate_window ? TrafficRow::Mark{row.last, row.count}
-                                                    : row.newer;
-    row.newer = now;
+void TrafficRow::move_marks(Mark now) noexcept {
+    const auto age = now.time - newer.time;
+    older = age < Nanoseconds{} ? now : age > 2 * rate_window ? Mark{last, count} : newer;
+    newer = now;
 }
 
 TrafficTable::Key TrafficTable::key_of(LinkId link, Source source, MessageId id) noexcept {
@@ -58,31 +56,11 @@ void TrafficTable::add(LinkId link, const wire::FrameView& frame, WallTime time)
             ++unlisted_;
             return;
         }
-        const TrafficRow::Mark mark{time, 1};
-        it = add_row(
-            key,
-            {.link = link, .source = frame.source(), .id = frame.id(), .first = time, .older = mark, .newer = mark});
+        it = add_row(key, TrafficRow::begin(link, frame.source(), frame.id(), time));
     } else {
-        auto& row = it->second;
-        const auto gap = time - row.last;
-        row.shortest_gap = row.count == 1 ? gap : std::min(row.shortest_gap, gap);
-        row.longest_gap = row.count == 1 ? gap : std::max(row.longest_gap, gap);
-        const auto age = time - row.newer.time;
-        if (age >= TrafficRow::rate_window || age < Nanoseconds{}) [[unlikely]]
-            move_marks(row, {time, row.count + 1});
+        it->second.note_gap(time);
     }
-    auto& row = it->second;
-    row.last = time;
-    ++row.count;
-    row.bytes += frame.size();
-}
-
-void TrafficTable::note_heartbeat(LinkId link, const wire::FrameView& frame) noexcept {
-    const auto row = rows_.find(key_of(link, frame.source(), frame.id()));
-    if (row == rows_.end()) return;
-    auto& kept = row->second.heartbeat;
-    kept = {};
-    std::ranges::copy(frame.payload().first(std::min(frame.payload().size(), kept.size())), kept.begin());
+    it->second.count_frame(frame.size(), time);
 }
 
 std::vector<TrafficRow> TrafficTable::rows() const {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cerrno>
 #include <cstring>
 
@@ -39,16 +40,17 @@ SetupResult<std::unique_ptr<FrameQueue>> FrameQueue::create(std::size_t capacity
 
 FrameQueue::~FrameQueue() { ::munmap(memory_, capacity_); }
 
-void FrameQueue::look_at_head() noexcept {
+void FrameQueue::load_head() noexcept {
     tail_.head_seen = std::max(head_.position.load(std::memory_order_acquire),
                                tail_.restarted_to);  // pairs with the release in next()
 }
 
 bool FrameQueue::push(const Entry& entry) noexcept {
     const std::size_t size = header_bytes + rounded(entry.frame.size());
+    assert(size <= capacity_);
     std::uint64_t tail = tail_.position.load(std::memory_order_relaxed);
     const bool warm_end = capacity_ - to_end(tail) > warm_bytes;
-    if (warm_end) look_at_head();
+    if (warm_end) load_head();
     if (warm_end && tail_.head_seen == tail) {  // empty: returns to the memory that is still in the cache
         tail_.restart_at.store(tail, std::memory_order_relaxed);  // visible to the reader with the new tail
         tail += to_end(tail);
@@ -56,13 +58,14 @@ bool FrameQueue::push(const Entry& entry) noexcept {
     }
     const std::size_t rest = to_end(tail);
     const std::size_t needed = rest < size ? rest + size : size;
-    if (tail + needed - tail_.head_seen > capacity_) look_at_head();
+    if (tail + needed - tail_.head_seen > capacity_) load_head();
     if (tail + needed - tail_.head_seen > capacity_) return false;
     if (rest < size) {
         const Header padding{0, 0, 0};
         if (rest >= header_bytes) std::memcpy(at(tail), &padding, header_bytes);
         tail += rest;
     }
+    assert(to_end(tail) >= size && tail + size - tail_.head_seen <= capacity_);
     const Header header{entry.time.time_since_epoch().count(), entry.link.value,
                         static_cast<std::uint32_t>(entry.frame.size())};
     std::memcpy(at(tail), &header, header_bytes);
@@ -94,7 +97,7 @@ void FrameQueue::close() noexcept {
 
 std::optional<FrameQueue::Entry> FrameQueue::next() noexcept {
     std::uint64_t head = head_.release_to;
-    // Releases the room of the last entry; pairs with the acquire in look_at_head().
+    // Releases the room of the last entry; pairs with the acquire in load_head().
     head_.position.store(head, std::memory_order_release);
     for (;;) {
         if (head == head_.tail_seen) {

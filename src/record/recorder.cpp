@@ -39,31 +39,25 @@ void Recorder::stop() {
 // Flushes whenever the queue runs empty, so that other programs can follow the file.
 void Recorder::run() {
     while (queue_->wait()) {
-        SetupResult<void> worst = look_at_file();
+        SetupResult<void> worst = check_file();
         while (const auto entry = queue_->next())
             if (auto written = write(*entry); !written) worst = std::move(written);
         const auto flushed = writer_.flush();
         count();
         report(worst ? flushed : worst);
     }
-    const auto closed = writer_.close();
+    const auto closed = report_removed(writer_.close());
     count();
-    report_removed(writer_.take_left());
-    report(closed);
+    if (!closed) report(closed);
     if (const auto lost = writer_.lost_records(); lost != 0)
         notice_(fmt::format("{}: {} {} not written", label_, lost, lost == 1 ? "frame" : "frames"));
     finished_.store(true, std::memory_order_release);
 }
 
-SetupResult<void> Recorder::look_at_file() {
-    auto removed = writer_.look_after(mono_now());
+SetupResult<void> Recorder::report_removed(SetupResult<std::filesystem::path> removed) {
     if (!removed) return tl::unexpected(std::move(removed.error()));
-    report_removed(*removed);
+    if (!removed->empty()) notice_(fmt::format("{}: {}", label_, writer_.removal_notice(*removed)));
     return {};
-}
-
-void Recorder::report_removed(const std::filesystem::path& removed) {
-    if (!removed.empty()) notice_(fmt::format("{}: {}", label_, removal_notice(removed, writer_.segment_path())));
 }
 
 SetupResult<void> Recorder::write(const FrameQueue::Entry& entry) {
@@ -77,15 +71,15 @@ SetupResult<void> Recorder::write(const FrameQueue::Entry& entry) {
 // While the disk is full, or there is no file because its folder is missing, frames wait in the queue. At the end, the
 // first failure counts for all that are left.
 SetupResult<void> Recorder::wait_for_room(const FrameQueue::Entry& entry) {
-    constexpr std::chrono::milliseconds look_for_room{100};
+    constexpr std::chrono::milliseconds room_poll_interval{100};
     while (!gave_up_) {
         auto room = writer_.make_room(entry.time, entry.frame);
         if (room || !writer_.can_retry(room.error())) return room;
         count();
         report(room);
         if (ending_.load(std::memory_order_relaxed)) gave_up_ = std::move(room.error());
-        else std::this_thread::sleep_for(look_for_room);
-        if (const auto looked = look_at_file(); !looked) report(looked);
+        else std::this_thread::sleep_for(room_poll_interval);
+        if (const auto looked = check_file(); !looked) report(looked);
     }
     return tl::unexpected(*gave_up_);
 }

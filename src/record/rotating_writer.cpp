@@ -95,11 +95,11 @@ SetupResult<void> RotatingWriter::continue_in(TlogWriter next) {
     return closed;
 }
 
-SetupResult<fs::path> RotatingWriter::look_after(MonoTime now) {
-    if (!left_.empty()) return take_left();
-    constexpr std::chrono::milliseconds look_interval{500};
-    if (now < look_due_) return {};
-    look_due_ = now + look_interval;
+SetupResult<fs::path> RotatingWriter::maintain(MonoTime now) {
+    if (!left_.empty()) return std::exchange(left_, {});
+    constexpr std::chrono::milliseconds check_interval{500};
+    if (now < check_due_) return {};
+    check_due_ = now + check_interval;
     auto removed = is_removed() ? segment_path() : fs::path{};
     if (removed.empty()) no_file_.reset();
     auto done = removed.empty() ? flush() : begin_again();
@@ -169,22 +169,26 @@ bool RotatingWriter::can_retry(const SetupError& error) const noexcept {
 
 SetupResult<void> RotatingWriter::flush() {
     if (no_file_) return tl::unexpected(*no_file_);
-    if (!writer_ || is_deleted()) return {};  // look_after() begins a new file for what is buffered
+    if (!writer_ || is_deleted()) return {};  // maintain() begins a new file for what is buffered
     return writer_->flush();
 }
 
-SetupResult<void> RotatingWriter::close() {
-    closed_ = true;
-    if (is_removed() && writer_->buffered_bytes() != 0) {
-        auto removed = segment_path();
-        auto begun = begin_again();
-        if (begun) left_ = std::move(removed);
-        else if (no_file_) return begun;
-    }
-    return writer_ ? writer_->close() : SetupResult<void>{};
+SetupResult<fs::path> RotatingWriter::close() {
+    auto done = std::exchange(closed_, true) ? SetupResult<void>{} : leave_at_the_end();
+    if (done && writer_) done = writer_->close();
+    if (!done) return tl::unexpected(std::move(done.error()));
+    return std::exchange(left_, {});
 }
 
-fs::path RotatingWriter::take_left() noexcept { return std::exchange(left_, {}); }
+// If there is no place for a new file, a file that was only renamed takes the last records.
+SetupResult<void> RotatingWriter::leave_at_the_end() {
+    if (!is_removed()) return {};
+    auto removed = segment_path();
+    auto left = writer_->buffered_bytes() == 0 ? end_segment() : begin_again();
+    if (left) left_ = std::move(removed);
+    return no_file_ || !writer_ ? left : SetupResult<void>{};
+}
+
 fs::path RotatingWriter::segment_path() const { return writer_ ? writer_->path() : fs::path{}; }
 fs::path RotatingWriter::renamed_to() const { return writer_ ? writer_->renamed_to() : fs::path{}; }
 
@@ -205,7 +209,9 @@ std::uint64_t RotatingWriter::written_bytes() const noexcept {
     return before_.bytes + (writer_ ? writer_->written_bytes() : 0);
 }
 
-std::string removal_notice(const fs::path& removed, const fs::path& next) {
+std::string RotatingWriter::removal_notice(const fs::path& removed) const {
+    const auto next = segment_path();
+    if (closed_ && next.empty()) return removed.string() + " was removed or replaced before it was complete";
     const bool has_another_name = !next.empty() && next != removed;
     return fmt::format("{} was removed or replaced; a new file begins{}", removed.string(),
                        has_another_name ? ": " + next.string() : "");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cerrno>
 #include <cstring>
 
@@ -76,6 +77,7 @@ std::optional<TlogReader::Stop> TlogReader::fill() {
     if (!got) return read_failed(got.error());
     at_end_ = file_.is_regular() ? *got < buffer_length - end_ : *got == 0;
     end_ += *got;
+    assert(begin_ <= end_ && end_ <= buffer_length);
     if (at_end_ && base_ + end_ < size_)
         return read_failed(SetupError{SetupCode::bad_input, 0,
                                       fmt::format("{} was shortened while it was read: {} of {} bytes are left",
@@ -86,6 +88,7 @@ std::optional<TlogReader::Stop> TlogReader::fill() {
 void TlogReader::lose(std::size_t bytes) noexcept {
     if (bytes == 0) return;
     if (lost_run_ == 0) counters_.damaged_places.add();
+    assert(bytes <= end_ - begin_);
     lost_run_ += bytes;
     counters_.lost_bytes.add(bytes);
     begin_ += bytes;
@@ -94,6 +97,7 @@ void TlogReader::lose(std::size_t bytes) noexcept {
 // Returns the record at the front. It is constructed in place, because copying what was just written stalls the
 // processor.
 Result<Record, TlogReader::Stop> TlogReader::take(std::size_t size, const wire::MessageInfo* info) noexcept {
+    assert(size >= min_record_length && size <= unread().size());
     const ByteView bytes = unread().first(size);
     const std::uint64_t offset = position();
     begin_ += size;
@@ -105,9 +109,9 @@ Result<Record, TlogReader::Stop> TlogReader::take(std::size_t size, const wire::
                                 std::exchange(lost_run_, 0));
 }
 
-Result<Record, TlogReader::Stop> TlogReader::next(std::uint64_t most_damage) {
+Result<Record, TlogReader::Stop> TlogReader::next(std::uint64_t max_damage) {
     if (error_) return tl::unexpected(Stop::failed);
-    for (const std::uint64_t begin = position(); position() - begin < most_damage;) {
+    for (const std::uint64_t begin = position(); position() - begin < max_damage;) {
         if (needs_more()) [[unlikely]] {
             if (const auto stop = fill()) return tl::unexpected(*stop);
             continue;
@@ -160,11 +164,11 @@ std::size_t TlogReader::pass_over_to(MessageId id) noexcept {
     return found;
 }
 
-Result<Record, TlogReader::Stop> TlogReader::next_of(MessageId id, std::uint64_t most_bytes) {
-    for (const std::uint64_t begin = position(); position() - begin < most_bytes;) {
+Result<Record, TlogReader::Stop> TlogReader::next_of(MessageId id, std::uint64_t max_bytes) {
+    for (const std::uint64_t begin = position(); position() - begin < max_bytes;) {
         if (lost_run_ == 0 && position() >= examine_until_)
             if (const auto size = pass_over_to(id)) return take(size, table_->find(id));
-        auto record = next(most_bytes);
+        auto record = next(max_bytes);
         if (!record || record->frame.id() == id) return record;
     }
     return tl::unexpected(Stop::damage);

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -32,8 +33,8 @@ int rename_to_free_name(const fs::path& from, const fs::path& to) {
 }
 
 SetupResult<fs::path> move_away(const fs::path& path) {
-    constexpr int most_old_files = 9999;
-    for (int n = 1; n <= most_old_files; ++n) {
+    constexpr int max_old_files = 9999;
+    for (int n = 1; n <= max_old_files; ++n) {
         const fs::path old = fmt::format("{}.{}", path.string(), n);
         const int error = rename_to_free_name(path, old);
         if (error == 0) return old;
@@ -42,7 +43,7 @@ SetupResult<fs::path> move_away(const fs::path& path) {
     }
     return setup_error(SetupCode::in_use,
                        fmt::format("{} exists, and so do {}.1 to {}.{}: move some of them to another folder",
-                                   path.string(), path.string(), path.string(), most_old_files));
+                                   path.string(), path.string(), path.string(), max_old_files));
 }
 
 // A name that was mistyped must not move away a file that something else needs.
@@ -113,6 +114,7 @@ SetupResult<void> TlogWriter::make_room(const wire::FrameView& frame) {
 }
 
 bool TlogWriter::has_room(const wire::FrameView& frame) const noexcept {
+    assert(used_ <= capacity_);
     return time_length + frame.size() <= capacity_ - used_;
 }
 
@@ -126,11 +128,15 @@ void TlogWriter::take_buffered(TlogWriter& from) noexcept {
     from.records_ = from.written_records_;
 }
 
-WallTime TlogWriter::first_buffered_time() const noexcept { return wall_from_us(load_be64(buffer_.get())); }
+WallTime TlogWriter::first_buffered_time() const noexcept {
+    assert(used_ >= time_length);
+    return wall_from_us(load_be64(buffer_.get()));
+}
 
 SetupResult<void> TlogWriter::write(WallTime time, const wire::FrameView& frame) {
     const std::size_t length = time_length + frame.size();
     if (auto done = make_room(frame); !done) return done;
+    assert(length <= capacity_ - used_);
     std::uint8_t* record = buffer_.get() + used_;
     store_be64(record, time_on_file(time));
     std::memcpy(record + time_length, frame.bytes().data(), frame.size());
@@ -148,6 +154,7 @@ SetupResult<void> TlogWriter::flush() {
 // the last whole record.
 SetupResult<void> TlogWriter::keep_whole_records(File::Written result) {
     const std::size_t taken = half_ + result.bytes;
+    assert(taken <= used_);
     std::size_t whole = 0;
     while (whole < taken) {
         const std::size_t next = record_length({buffer_.get() + whole, used_ - whole});
@@ -159,6 +166,7 @@ SetupResult<void> TlogWriter::keep_whole_records(File::Written result) {
     used_ -= whole;
     std::memmove(buffer_.get(), buffer_.get() + whole, used_);
     half_ = taken - whole;
+    assert(half_ < max_record_length && written_records_ <= records_);
     if (result.error == 0) return {};
     if (half_ != 0 && file_.is_regular()) {
         if (auto cut = file_.truncate(written_); !cut) return cut;

@@ -9,7 +9,7 @@
 
 namespace mavloom::ring {
 
-static_assert(RingPage::most_gone < route::Engine::max_links);
+static_assert(RingPage::max_gone < route::Engine::max_links);
 
 static void set(Counter* counter, std::uint64_t value) noexcept {
     if (counter != nullptr) counter->set(value);
@@ -18,7 +18,7 @@ static void set(Counter* counter, std::uint64_t value) noexcept {
 SetupResult<RingPage> RingPage::create(const std::string& ring, unsigned mode) {
     constexpr std::uint32_t of_ring = 32;
     shm::CounterPageOptions options;
-    options.counters = of_ring + most_own + paged_counters.size() * most_rows;
+    options.counters = of_ring + max_own_counts + (paged_counters.size() + 1) * max_rows;
     options.links = route::Engine::max_links;
     options.mode = mode;
     options.sets_aside = true;
@@ -48,7 +48,7 @@ RingPage::Words RingPage::add_words(std::string_view before, shm::CounterType ty
 
 void RingPage::name_link(LinkId link, std::string_view name) {
     std::erase(gone_, link);  // in case the link comes back
-    if (rows_.size() < most_rows) add_row(link);
+    if (rows_.size() < max_rows) add_row(link);
     while (!page_.name_link(link, name) && !gone_.empty()) {
         page_.forget_link(gone_.front());
         gone_.pop_front();
@@ -57,19 +57,20 @@ void RingPage::name_link(LinkId link, std::string_view name) {
 
 void RingPage::link_removed(LinkId link) {
     gone_.push_back(link);
-    if (gone_.size() <= most_gone) return;
+    if (gone_.size() <= max_gone) return;
     page_.forget_link(gone_.front());
     gone_.pop_front();
 }
 
 void RingPage::inherit(const std::map<LinkId, std::string>& names) {
-    const auto skipped = names.size() - std::min(names.size(), most_gone);
+    const auto skipped = names.size() - std::min(names.size(), max_gone);
     for (auto name = std::next(names.begin(), static_cast<std::ptrdiff_t>(skipped)); name != names.end(); ++name)
         if (page_.name_link(name->first, name->second)) gone_.push_back(name->first);
 }
 
-void RingPage::remove_row(std::map<LinkId, Words>::iterator row) {
-    for (Counter* const word : row->second) page_.remove(word);
+void RingPage::remove_row(std::map<LinkId, Row>::iterator row) {
+    for (Counter* const word : row->second.words) page_.remove(word);
+    page_.remove(row->second.up);
     rows_.erase(row);
 }
 
@@ -82,23 +83,29 @@ void RingPage::choose_rows(const std::vector<const link::LinkInfo*>& busiest) {
         if (!is_chosen(row->first)) remove_row(row);
         row = next;
     }
-    for (const link::LinkInfo* link : busiest) add_row(link->id);
+    for (const link::LinkInfo* link : busiest)
+        if (!rows_.contains(link->id)) name_link(link->id, link->name);  // it has never been up
 }
 
 void RingPage::add_row(LinkId link) {
-    if (!rows_.contains(link)) rows_.emplace(link, add_words("", shm::CounterType::counter, link));
+    if (rows_.contains(link)) return;
+    rows_.emplace(link,
+                  Row{add_words("", shm::CounterType::counter, link), page_.add("up", shm::CounterType::gauge, link)});
 }
 
 void RingPage::refresh(const std::vector<link::LinkInfo>& links, const std::vector<link::EndpointInfo>& endpoints,
                        std::optional<link::EndpointId> inlet, const OfRing& ring, std::span<const OwnCount> own) {
-    choose_rows(busiest_links(links, most_rows));
+    choose_rows(busiest_links(links, max_rows));
     link::LinkCounters others;
     for (const link::LinkInfo& link : links) {
         const auto row = rows_.find(link.id);
-        if (row == rows_.end()) others.add(*link.counters);
-        else
-            for (std::size_t i = 0; i < paged_counters.size(); ++i)
-                set(row->second[i], (link.counters->*paged_counters[i].word).value());
+        if (row == rows_.end()) {
+            others.add(*link.counters);
+            continue;
+        }
+        set(row->second.up, link.up ? 1 : 0);
+        for (std::size_t i = 0; i < paged_counters.size(); ++i)
+            set(row->second.words[i], (link.counters->*paged_counters[i].word).value());
     }
     for (const link::EndpointInfo& endpoint : endpoints) {
         others.add(endpoint.counters->gone);

@@ -16,11 +16,11 @@ namespace mavloom::ring {
 namespace {
 
 // Limit for records without a frame that one turn reads.
-constexpr std::size_t most_empty_records = 4096;
+constexpr std::size_t max_empty_records = 4096;
 // Limits the memory for a writer's link numbers. Twice the link limit of a router, so that no live link is evicted.
-constexpr std::size_t most_links = 2 * route::Engine::max_links;
-constexpr Nanoseconds names_distance = std::chrono::seconds(1);  // between two reads of the page for missing names
-constexpr Nanoseconds look_distance = shm::RingFollower::look_distance;
+constexpr std::size_t max_links = 2 * route::Engine::max_links;
+constexpr Nanoseconds names_interval = std::chrono::seconds(1);  // between two reads of the page for missing names
+constexpr Nanoseconds poll_interval = shm::RingFollower::poll_interval;
 
 shm::Trust trust_of(const endpoint::EndpointOptions& options) {
     return {.foreign = options.foreign, .user = link::Links::owner_of_inlets()};
@@ -42,12 +42,11 @@ bool is_copy(const shm::RecordInfo& info) noexcept {
 
 }  // namespace
 
-RingSource::RingSource(const endpoint::Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids,
-                       link::Links& links, Copies copies, const dialect::Dialect* dialect)
+RingSource::RingSource(const endpoint::Endpoint& endpoint, const wire::MessageTable& table, link::Links& links,
+                       Copies copies, const dialect::Dialect* dialect)
     : endpoint_(endpoint),
-      id_{ids.next()},
+      id_(links.take_endpoint_id()),
       table_(table),
-      ids_(ids),
       links_(links),
       wanted_copies_(copies),
       dialect_(dialect),
@@ -68,9 +67,9 @@ SetupResult<void> RingSource::open() {
 std::size_t RingSource::play(link::LinkHandler& handler, std::size_t most) {
     if (no_inlet_ && !std::exchange(reported_no_inlet_, true)) handler.on_notice(id_, no_inlet_->text);
     if (held_) return 0;
-    look_for_names();
+    poll_names();
     std::size_t played = 0, empty_records = 0;
-    for (more_ = true; played < most && empty_records < most_empty_records;) {
+    for (more_ = true; played < most && empty_records < max_empty_records;) {
         if (next_found_ < found_.size()) {
             hand_over(handler, found_[next_found_++]);
             ++played;
@@ -86,7 +85,7 @@ std::size_t RingSource::play(link::LinkHandler& handler, std::size_t most) {
 bool RingSource::read(link::LinkHandler& handler) {
     found_.clear();
     next_found_ = 0;
-    if (at_end_ || (next_look_ != MonoTime{} && mono_now() < next_look_)) return false;
+    if (at_end_ || (next_poll_ != MonoTime{} && mono_now() < next_poll_)) return false;
     const auto record = follower_.poll();
     at_end_ = end_ && (!record || record->position >= *end_);
     if (!record) on_no_record(record.error(), handler);
@@ -166,18 +165,18 @@ void RingSource::hand_over(link::LinkHandler& handler, const Found& found) {
 }
 
 void RingSource::on_no_record(shm::ReadError why, link::LinkHandler& handler) {
-    next_look_ = {};
+    next_poll_ = {};
     if (why == shm::ReadError::empty) {
         // Notice::unwritten stays until the new writer has written a record; take() resets it.
         if (last_notice_ != Notice::unwritten) last_notice_ = Notice::nothing;
         return;
     }
     if (why == shm::ReadError::damaged || why == shm::ReadError::forked) {
-        next_look_ = mono_now() + look_distance;
+        next_poll_ = mono_now() + poll_interval;
         return report(handler, Notice::damaged, "the ring is damaged; waiting for another ring of that name");
     }
     if (follower_.is_open()) return report(handler, Notice::unwritten, "it has no writer; waiting for one");
-    next_look_ = mono_now() + look_distance;
+    next_poll_ = mono_now() + poll_interval;
     const auto* const error = follower_.error();
     if (error == nullptr) return;
     const bool absent = error->code == SetupCode::not_found;
@@ -196,17 +195,17 @@ MonoTime RingSource::due(bool has_room, MonoTime now) {
     if (more_ || next_found_ < found_.size()) return has_room ? MonoTime{} : MonoTime::max();
     if (at_end_) return MonoTime::max();
     auto* const reader = follower_.reader();
-    if (reader == nullptr || next_look_ != MonoTime{}) return std::max(next_look_, now);
+    if (reader == nullptr || next_poll_ != MonoTime{}) return std::max(next_poll_, now);
     const Nanoseconds nap = reader->arm();
     // arm() also returns 0 for a removed ring. If it has no writer either, there is nothing to read.
-    if (nap == Nanoseconds{} && last_notice_ == Notice::unwritten) return now + look_distance;
+    if (nap == Nanoseconds{} && last_notice_ == Notice::unwritten) return now + poll_interval;
     return now + nap;
 }
 
 void RingSource::stop_at_current_end() noexcept {
     const auto* const reader = follower_.reader();
     end_ = reader == nullptr ? 0 : reader->end_position();
-    at_end_ = reader == nullptr || next_look_ != MonoTime{};
+    at_end_ = reader == nullptr || next_poll_ != MonoTime{};
 }
 
 void RingSource::forget_sequences() {
@@ -215,7 +214,7 @@ void RingSource::forget_sequences() {
 
 RingSource::RingLink& RingSource::link_of(LinkId in_ring, link::LinkHandler& handler) {
     if (const auto known = by_number_.find(in_ring); known != by_number_.end()) return *known->second;
-    if (by_number_.size() == most_links) by_number_.clear();
+    if (by_number_.size() == max_links) by_number_.clear();
     auto& link = link_called(name_of(in_ring), handler);
     by_number_.emplace(in_ring, &link);
     return link;
@@ -224,8 +223,8 @@ RingSource::RingLink& RingSource::link_of(LinkId in_ring, link::LinkHandler& han
 RingSource::RingLink& RingSource::link_called(const std::string& name, link::LinkHandler& handler) {
     auto known = by_name_.find(name);
     if (known == by_name_.end()) {
-        if (by_name_.size() == most_links) forget_longest_silent(handler);
-        known = by_name_.emplace(name, std::make_unique<RingLink>(LinkId{ids_.next()}, table_)).first;
+        if (by_name_.size() == max_links) forget_longest_silent(handler);
+        known = by_name_.emplace(name, std::make_unique<RingLink>(links_.take_link_id(), table_)).first;
         handler.on_link_up(known->second->id, id_, name);
     }
     known->second->own = is_own(name);
@@ -257,7 +256,7 @@ std::string RingSource::name_of(LinkId in_ring) {
 
 // Reads the counter page. Returns whether its names have changed.
 bool RingSource::read_names() {
-    next_names_ = mono_now() + names_distance;
+    next_names_ = mono_now() + names_interval;
     auto page = shm::read_counters(follower_.name(), trust_of(endpoint_.options));
     if (!page || page->links == names_) return false;
     names_ = std::move(page->links);
@@ -266,7 +265,7 @@ bool RingSource::read_names() {
 
 // The page may have been missing when a link was first seen, because its router was recreating it after a removal. Such
 // a link has a number instead of a name, so is_own() could not recognise this process's own link.
-void RingSource::look_for_names() {
+void RingSource::poll_names() {
     if (!any_unnamed_ || next_found_ < found_.size() || mono_now() < next_names_ || !read_names()) return;
     any_unnamed_ = false;
     by_number_.clear();

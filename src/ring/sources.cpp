@@ -13,18 +13,16 @@ namespace mavloom::ring {
 RingSources::RingSources(link::Links& links, const wire::MessageTable& table, Copies copies)
     : links_(links), table_(table), copies_(copies), waiter_([&links] { links.wake(); }) {}
 
-SetupResult<void> RingSources::check(const endpoint::Endpoint& endpoint) {
-    return endpoint::check_supported(endpoint, endpoint::RoutingOptions::refused);
-}
-
 SetupResult<link::EndpointId> RingSources::add(const endpoint::Endpoint& endpoint, const dialect::Dialect* dialect) {
+    if (auto checked = endpoint::check_supported(endpoint, endpoint::RoutingOptions::refused); !checked)
+        return tl::unexpected(std::move(checked.error()));
     const auto same = [&](const auto& ring) { return ring->endpoint().label() == endpoint.label(); };
     if (!links_.allows_same_address(endpoint) && std::ranges::any_of(rings_, same))
         return setup_error(
             SetupCode::usage,
             fmt::format("two endpoints are named {}; remove one of them, or give it another name=", endpoint.label()));
-    auto ring = std::make_unique<RingSource>(endpoint, dialect == nullptr ? table_ : dialect->wire_table(), link_ids_,
-                                             links_, copies_, dialect);
+    auto ring = std::make_unique<RingSource>(endpoint, dialect == nullptr ? table_ : dialect->wire_table(), links_,
+                                             copies_, dialect);
     if (auto opened = ring->open(); !opened) return tl::unexpected(std::move(opened.error()));
     rings_.push_back(std::move(ring));
     return rings_.back()->id();

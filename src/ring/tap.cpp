@@ -33,7 +33,7 @@ SetupResult<std::unique_ptr<RingTap>> RingTap::open(const std::string& name, shm
     auto writer = shm::RingWriter::open(name, options);
     if (!writer) return tl::unexpected(std::move(writer.error()));
     auto page = RingPage::create(name, options.mode);
-    const bool is_taken = !page && is_no_page_of_ours(page.error().code);  // look_after() reports it
+    const bool is_taken = !page && is_no_page_of_ours(page.error().code);  // maintain() reports it
     if (!page && !is_taken) {
         (void)writer->close(writer->created() ? shm::RingWriter::Leave::nothing : shm::RingWriter::Leave::ring);
         return tl::unexpected(std::move(page.error()));
@@ -66,7 +66,7 @@ void RingTap::refresh_page(const link::Links& links, std::optional<link::Endpoin
     if (page_) page_->refresh(links.links(), links.endpoints(), inlet, {writer_.records(), dropped_.value()}, own);
 }
 
-std::vector<std::string> RingTap::look_after(const link::Links& links) {
+std::vector<std::string> RingTap::maintain(const link::Links& links) {
     std::vector<std::string> notices;
     if (!noted_aside_) {
         note_aside(notices);
@@ -78,7 +78,7 @@ std::vector<std::string> RingTap::look_after(const link::Links& links) {
     return notices;
 }
 
-// Runs one job at a time. If no thread can be started, the next look_after() tries again.
+// Runs one job at a time. If no thread can be started, the next maintain() tries again.
 template <class Work>
 void RingTap::run_in_background(Work work) {
     if (background_.joinable()) background_.join();

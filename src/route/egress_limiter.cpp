@@ -2,6 +2,7 @@
 #include "route/egress_limiter.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 
 namespace mavloom::route {
@@ -12,15 +13,16 @@ double EgressLimiter::burst_bytes(std::uint64_t bytes_per_s) noexcept {
 
 EgressLimiter::EgressLimiter(const dialect::Rates& rates, std::optional<std::uint64_t> bytes_per_s)
     : rates_(rates), bytes_per_s_(bytes_per_s) {
-    if (bytes_per_s_) tokens_ = verified_tokens_ = burst_bytes(*bytes_per_s_);
+    if (bytes_per_s_) tokens_ = trusted_tokens_ = burst_bytes(*bytes_per_s_);
 }
 
 void EgressLimiter::refill(MonoTime now) noexcept {
+    assert(bytes_per_s_ && now >= filled_);
     if (filled_ != MonoTime::min()) {
         const std::chrono::duration<double> since = now - filled_;
         const double added = since.count() * static_cast<double>(*bytes_per_s_), most = burst_bytes(*bytes_per_s_);
         tokens_ = std::min(tokens_ + added, most);
-        verified_tokens_ = std::min(verified_tokens_ + added, most);
+        trusted_tokens_ = std::min(trusted_tokens_ + added, most);
     }
     filled_ = now;
 }
@@ -31,15 +33,16 @@ void EgressLimiter::spend(double& tokens, double bytes) const noexcept {
 }
 
 [[gnu::noinline]] EgressLimiter::Answer EgressLimiter::admit(const wire::FrameView& frame, bool essential,
-                                                             bool is_verified, MonoTime now) noexcept {
-    const auto rate = rates_.ask(frame, now, is_verified ? 1 : 0);
+                                                             bool is_trusted, MonoTime now) noexcept {
+    const auto rate = rates_.ask(frame, now, is_trusted ? 1 : 0);
     if (!rate.admitted) return Answer::rate_limited;
     if (bytes_per_s_) {
         refill(now);
         const auto size = static_cast<double>(frame.size());
-        if (!essential && (is_verified ? verified_tokens_ : tokens_) < size) return Answer::bytes_limited;
+        if (!essential && (is_trusted ? trusted_tokens_ : tokens_) < size) return Answer::bytes_limited;
         spend(tokens_, size);
-        if (is_verified) spend(verified_tokens_, size);
+        if (is_trusted) spend(trusted_tokens_, size);
+        assert(tokens_ <= trusted_tokens_ && "whatever trusted frames take is taken from strangers");
     }
     rates_.count(rate, now);
     return Answer::admitted;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Limits the output of one link: max_rate for each source and message, and max_bytes as a token bucket. Verified frames
-// have rates and a bucket of their own, so other frames take nothing from them. Of max_bytes, the others get what
-// verified frames leave. Private to module route. One owner thread. Allocates at construction.
+// Limits the output of one link: max_rate for each source and message, and max_bytes as a token bucket. Frames
+// of strangers have rates and a bucket of their own, so they take nothing from the others. Of max_bytes, they get what
+// the others leave. Private to module route. One owner thread. Allocates at construction.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ public:
 
     [[nodiscard]] bool limits() const noexcept { return rates_.limits() || bytes_per_s_.has_value(); }
     // Counts the frame if the answer is `admitted`. The byte limit never holds back an essential frame.
-    [[nodiscard]] Answer admit(const wire::FrameView& frame, bool essential, bool is_verified, MonoTime now) noexcept;
+    [[nodiscard]] Answer admit(const wire::FrameView& frame, bool essential, bool is_trusted, MonoTime now) noexcept;
 
 private:
     void refill(MonoTime now) noexcept;
@@ -32,8 +32,8 @@ private:
 
     dialect::RateLimiter<MonoTime> rates_;
     std::optional<std::uint64_t> bytes_per_s_;
-    // Bytes; below 0 after essential frames. Verified frames spend from both buckets.
-    double tokens_ = 0, verified_tokens_ = 0;
+    // Bytes; below 0 after essential frames. Frames from own and verified links spend from both buckets.
+    double tokens_ = 0, trusted_tokens_ = 0;
     MonoTime filled_ = MonoTime::min();
 };
 

@@ -2,6 +2,7 @@
 #include "mavloom/route/engine.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "mavloom/dialect/message_class.hpp"
 #include "route/engine_impl.hpp"
@@ -16,11 +17,12 @@ Engine::Engine(Engine&&) noexcept = default;
 Engine& Engine::operator=(Engine&&) noexcept = default;
 Engine::~Engine() = default;
 
-bool Engine::add_link(LinkId link, const LinkPolicy& policy, std::uint64_t address, const LinkCounters& counts) {
-    return impl_->add_link(link, policy, address, counts);
+bool Engine::add_link(LinkId link, const LinkPolicy& policy, const LinkCounters& counts) {
+    return impl_->add_link(link, policy, counts);
 }
 void Engine::remove_link(LinkId link) { impl_->remove_link(link); }
 void Engine::close_link(LinkId link) { impl_->close_link(link); }
+void Engine::close_endpoint(std::uint32_t endpoint) { impl_->close_endpoint(endpoint); }
 void Engine::set_options(const Options& options) { impl_->set_options(options); }
 void Engine::set_group_orders(std::span<const GroupOrder> orders) { impl_->set_group_orders(orders); }
 std::size_t Engine::links() const noexcept { return impl_->link_count; }
@@ -70,6 +72,7 @@ Decision Engine::Impl::route(const wire::FrameView& frame, std::uint64_t hash, c
         return {Verdict::unknown_link, {}};
     }
     now_ = std::max(now, now_);
+    assert(links[slot] != nullptr && links[slot]->id == ingress);
     Link& link = *links[slot];
     Passage p{frame, hash, info, frame.id(), pair_of(frame.source()), slot, link, now_, is_repeated};
     RouteTable::Change change;
@@ -77,6 +80,9 @@ Decision Engine::Impl::route(const wire::FrameView& frame, std::uint64_t hash, c
     count_routes(change);
 
     const Verdict verdict = judge(p);
+    assert(verdict != Verdict::forwarded || any(candidates_.data(), words_));
+    assert(verdict != Verdict::forwarded || !has(candidates_.data(), slot));
+    assert(verdict != Verdict::forwarded || !intersect(candidates_.data(), taps_.data(), words_));
     link.counters.frames.add();
     count(link.counters, verdict);
     if (verdict != Verdict::forwarded) each_word(words_, [&](std::size_t w) { candidates_[w] = 0; });
@@ -85,8 +91,6 @@ Decision Engine::Impl::route(const wire::FrameView& frame, std::uint64_t hash, c
     if (p.is_copy) [[unlikely]]
         unite(recent_.sent(p.recent), candidates_.data(), words_);
     else if (p.is_remembered) assign(recent_.sent(p.recent), candidates_.data(), words_);
-    if (has_watched_) [[unlikely]]
-        watch_for_returns(frame.system(), candidates_.data());
     return {verdict, list_candidates(link)};
 }
 
@@ -95,7 +99,10 @@ std::span<const LinkId> Engine::Impl::list_candidates(Link& from) noexcept {
     if (from.listed_at == links_version_ && equal(candidates_.data(), from.listed_set.data(), words_))
         return {from.list.data(), from.listed};
     std::size_t n = 0;
-    each(candidates_.data(), words_, [&](Slot to) { out_[n++] = ids_[to]; });
+    each(candidates_.data(), words_, [&](Slot to) {
+        assert(links[to] != nullptr && n < out_.size());
+        out_[n++] = ids_[to];
+    });
     if (n >= worth_a_list && n <= from.list.size()) {
         std::copy_n(out_.begin(), n, from.list.begin());
         assign(from.listed_set.data(), candidates_.data(), words_);
@@ -145,7 +152,6 @@ bool Engine::Impl::is_heard_before(Passage& p, Verdict& verdict) noexcept {
     if (found && counts_as_heard(p)) {
         const Nanoseconds age = p.now - recent_.time(p.recent);
         if (age < echo_window && has(recent_.sent(p.recent), p.slot)) {
-            if (!p.is_repeated) learn_from_echo(p.frame, p.info, p.slot);
             verdict = Verdict::echo;
             return true;
         }
@@ -167,6 +173,7 @@ bool Engine::Impl::is_heard_before(Passage& p, Verdict& verdict) noexcept {
 }
 
 bool Engine::Impl::came_by_group(const Passage& p) noexcept {
+    assert(p.link.group < groups_.size());
     const Words heard = recent_.heard(p.recent);
     std::uint64_t links_of_group = 0;
     each_word(words_, [&](std::size_t w) { links_of_group |= heard[w] & same_place(p.link, w); });
@@ -177,20 +184,23 @@ bool Engine::Impl::came_by_group(const Passage& p) noexcept {
 // before it arrived here. Frames from private links went nowhere, so they count only there. A frame that no link
 // brought was sent by the program itself.
 bool Engine::Impl::counts_as_heard(const Passage& p) noexcept {
-    if (!p.link.policy.is_verified && !has_private_) return true;
+    const bool is_verified = p.link.policy.rank == Rank::verified;
+    if (!is_verified && !has_private_) return true;
     const Words heard = recent_.heard(p.recent);
     if (!any(heard, words_)) return true;
-    if (p.link.policy.is_verified && !intersect(heard, verified_.data(), words_)) return false;
+    if (is_verified && !intersect(heard, verified_.data(), words_)) return false;
     return p.link.policy.is_private || !is_subset(heard, private_.data(), words_);
 }
 
 void Engine::Impl::remember(Passage& p, bool found) noexcept {
+    assert(recent_.active() && p.hash != 0);
     if (recent_.put(p.hash, p.now, window_, found, p.recent)) counters.recent_evicted.add();
     insert(recent_.heard(p.recent), p.slot);
     p.is_remembered = true;
 }
 
 bool Engine::Impl::is_on_two_members(const Passage& p) const noexcept {
+    assert(p.link.group < groups_.size());
     const ConstWords where = routes_.links_of(p.source), members = groups_[p.link.group].members.data();
     int count = 0;
     each_word(words_, [&](std::size_t w) { count += std::popcount(where[w] & members[w]); });
@@ -214,6 +224,7 @@ bool Engine::Impl::is_doubled(const Passage& p) noexcept {
 // the chosen link only, so they cannot show loss. A source heard on only one link is not counted either. A link that is
 // new, or was silent, starts with the count of the best link.
 void Engine::Impl::count_beats(const Passage& p) noexcept {
+    assert(p.link.group < groups_.size());
     const std::vector<Slot>& members = groups_[p.link.group].order;
     const bool is_beat = p.id == heartbeat_id && !is_doubled(p);
     if (!is_alive(p.link, p.now)) {
@@ -222,25 +233,8 @@ void Engine::Impl::count_beats(const Passage& p) noexcept {
             if (is_alive(*links[slot], p.now)) p.link.beats = std::max(p.link.beats, links[slot]->beats);
         return;
     }
-    if (!is_beat || !is_on_two_members(p) || ++p.link.beats < most_heartbeats) return;
+    if (!is_beat || !is_on_two_members(p) || ++p.link.beats < max_heartbeats) return;
     for (const Slot slot : members) links[slot]->beats = (links[slot]->beats + 1) / 2;
-}
-
-// A signed frame that another endpoint heard earlier teaches no new route.
-void Engine::Impl::learn(Passage& p) noexcept {
-    if (p.is_repeated && routes_.find(p.slot, p.source) == nullptr) [[unlikely]]
-        return;
-    if (p.link.group != no_group && groups_[p.link.group].mode == GroupMode::best) count_beats(p);
-    p.link.heard = true;
-    p.link.last_heard = p.now;
-    if (p.info == nullptr || p.frame.system().value == 0) return;
-    const bool is_elsewhere = has_other(routes_.links_of(p.frame.system()), p.slot, words_);
-    if (is_elsewhere && !may_learn(p)) return;
-    if (departed_.any(p.now) && !may_return(p)) return;
-    RouteTable::Change change;
-    routes_.learn(p.slot, p.source, p.now, change);
-    count_routes(change);
-    if (is_elsewhere) watch_for_duplicate_ids(p);
 }
 
 Verdict Engine::Impl::to_everybody() noexcept {
@@ -262,36 +256,59 @@ Verdict Engine::Impl::choose_by_target(Passage& p) noexcept {
     const Source target = target_of(p.frame, p.info);
     if (target.system.value == 0) return to_everybody();
     if (options.own == target) return Verdict::consumed;
+    p.is_directed = true;
     const bool floods = options.unknown_target == UnknownTarget::flood;
-    // A route that only unverified links taught does not keep a frame from verified links.
-    if (floods && p.link.policy.is_verified && !intersect(routes_.links_of(target.system), verified_.data(), words_))
-        return to_everybody();
-    if (!choose_links_of(target)) {
-        const bool is_known_system = any(routes_.links_of(target.system), words_);
-        if (!is_known_system && floods) return to_everybody();
+    if (floods && !any(routes_.links_of(target.system), words_)) return to_everybody();
+    const bool is_reached = choose_links_of(target);
+    if (floods && !is_known_to_equals(target.system, p.link.policy.rank)) {
+        add_equals(p.link.policy.rank, is_reached);
+    } else if (!is_reached) {
         ++unknown_[pair_of(target)];
         return Verdict::unknown_target;
     }
-    p.is_directed = true;
     if (reasons_ != nullptr) [[unlikely]]
         explain_target();
     return Verdict::forwarded;
+}
+
+// Whether a link of this rank or a higher one has the system. A route that only lower ranks taught keeps no frame from
+// the others.
+bool Engine::Impl::is_known_to_equals(SystemId system, Rank rank) const noexcept {
+    const ConstWords where = routes_.links_of(system);
+    if (rank == Rank::stranger) return any(where, words_);
+    return intersect(where, at_least(rank), words_);
+}
+
+// For `flood`, if only lower ranks have the system: the links of this rank and above get the frame as if nobody had it.
+void Engine::Impl::add_equals(Rank rank, bool is_reached) noexcept {
+    const ConstWords equals = at_least(rank);
+    each_word(words_,
+              [&](std::size_t w) { candidates_[w] = (is_reached ? candidates_[w] : 0) | (ordinary_[w] & equals[w]); });
 }
 
 // Makes the links of exactly the target the candidates, or else the links of its system that are not private. Returns
 // false if no link knows the system, or if an unknown component is to be dropped. If only private links know the
 // system, there are no candidates, and it returns true.
 bool Engine::Impl::choose_links_of(Source target) noexcept {
-    const ConstWords pair = routes_.links_of(pair_of(target));
+    const ConstWords pair = routes_.links_of(pair_of(target)), of_system = routes_.links_of(target.system);
     if (target.component.value != 0 && any(pair, words_)) {
         assign(candidates_.data(), pair, words_);
+        if (options.unknown_component == UnknownComponent::system && !Trust::is_autopilot(pair_of(target)))
+            add_higher_ranks(of_system);
         return true;
     }
-    const ConstWords of_system = routes_.links_of(target.system);
     if (!any(of_system, words_)) return false;
     if (target.component.value != 0 && options.unknown_component == UnknownComponent::drop) return false;
     each_word(words_, [&](std::size_t w) { candidates_[w] = of_system[w] & ~private_[w]; });
     return true;
+}
+
+// If only lower ranks know the component, somebody may have invented it to get its commands. So they also go to the
+// links of higher ranks that have the system.
+void Engine::Impl::add_higher_ranks(ConstWords of_system) noexcept {
+    if (intersect(candidates_.data(), verified_.data(), words_)) return;
+    const auto& higher = intersect(candidates_.data(), trusted_.data(), words_) ? verified_ : trusted_;
+    each_word(words_, [&](std::size_t w) { candidates_[w] |= of_system[w] & higher[w] & ~private_[w]; });
 }
 
 void Engine::Impl::explain_target() noexcept {
@@ -329,27 +346,16 @@ void Engine::Impl::leave_out_origin(const Passage& p) noexcept {
     leave_out(scratch_.data(), Reason::source_here);
 }
 
-// Whether the link has the frame's source itself, and so does not need the frame. A forger there may claim to be the
-// source. If the source was first present on the link that brought the frame, the claim counts only after
-// `consistent_for`, and never for targeted frames or with learn=first.
+// Whether the link has the frame's source itself, and so does not need the frame: it heard the source lately, and
+// first. An own link need not be first, but one frame there may be forged. A lower rank keeps nothing from a higher
+// one, and no link keeps a targeted frame from its target.
 bool Engine::Impl::is_origin(Slot slot, const Passage& p) const noexcept {
-    const Route* const there = present_route(slot, p);
-    if (there == nullptr) return false;
-    const Route* const here = present_route(p.slot, p);
-    if (here == nullptr) return true;
-    if (p.is_directed) return false;
-    if (here->since_ns >= there->since_ns) return true;
-    if (links[slot]->policy.learns_first) return false;
-    return p.now.time_since_epoch().count() - there->since_ns >= consistent_for.count();
-}
-
-// The route to the frame's source on a link where the source is present; null on other links. One frame may be forged,
-// so a source that is present was heard repeatedly and recently.
-const Route* Engine::Impl::present_route(Slot slot, const Passage& p) const noexcept {
-    const Route* const route = routes_.find(slot, p.source);
-    const bool is_present = route != nullptr && route->heard_ns - route->since_ns >= repeated_after.count() &&
-                            p.now.time_since_epoch().count() - route->heard_ns < present_for.count();
-    return is_present ? route : nullptr;
+    const Route* const there = routes_.find(slot, p.source);
+    if (p.is_directed || there == nullptr || links[slot]->policy.rank < p.link.policy.rank) return false;
+    if (p.now.time_since_epoch().count() - there->heard_ns >= present_for.count()) return false;
+    const Route* const here = routes_.find(p.slot, p.source);
+    if (here == nullptr || there->since_ns <= here->since_ns) return true;
+    return has(trusted_.data(), slot) && there->heard_ns - there->since_ns >= repeated_after.count();
 }
 
 void Engine::Impl::apply_filters(const Passage& p) noexcept {
@@ -377,9 +383,9 @@ void Engine::Impl::apply_groups(const Passage& p) noexcept {
         const Slot chosen = choose_member(group, scratch_.data(), p.now);
         if (chosen == no_slot) continue;
         erase(scratch_.data(), chosen);
-        // Which of the peers of the chosen endpoint is the vehicle, nobody knows.
-        if (const auto family = links[chosen]->family; family != no_family)
-            each_word(words_, [&](std::size_t w) { scratch_[w] &= ~families_[family].links[w]; });
+        // It chooses an endpoint: which of its peers is the vehicle, nobody knows.
+        if (const auto peers = links[chosen]->peers; peers != no_peers)
+            each_word(words_, [&](std::size_t w) { scratch_[w] &= ~peers_[peers].links[w]; });
         leave_out(scratch_.data(), Reason::other_member);
     }
 }
@@ -389,13 +395,15 @@ bool Engine::Impl::is_alive(const Link& link, MonoTime now) const noexcept {
 }
 
 bool Engine::Impl::is_better(const Link& a, const Link& b, GroupMode mode) noexcept {
-    if (a.policy.is_verified != b.policy.is_verified) return a.policy.is_verified;
+    const bool is_verified = a.policy.rank == Rank::verified;
+    if (is_verified != (b.policy.rank == Rank::verified)) return is_verified;
     if (mode == GroupMode::primary) return false;
     return std::pair{a.beats, a.last_heard} > std::pair{b.beats, b.last_heard};
 }
 
 // Returns no_slot if no member is alive; the frame then goes to all of them.
 Slot Engine::Impl::choose_member(Group& group, Words candidates, MonoTime now) noexcept {
+    assert(group.mode != GroupMode::all);
     Slot best = no_slot;
     for (const Slot slot : group.order) {
         const Link& link = *links[slot];
@@ -405,14 +413,16 @@ Slot Engine::Impl::choose_member(Group& group, Words candidates, MonoTime now) n
     if (best == no_slot || group.mode == GroupMode::primary) return best;
     const Slot current = group.current;
     const bool stays = current != no_slot && has(candidates, current) && is_alive(*links[current], now) &&
-                       links[current]->policy.is_verified == links[best]->policy.is_verified &&
+                       has(verified_.data(), current) == has(verified_.data(), best) &&
                        links[best]->beats < links[current]->beats + best_switch_margin;
     if (!stays) group.current = best;
+    assert(has(candidates, group.current));
     return group.current;
 }
 
 EgressLimiter::Answer Engine::Impl::limit(Link& link, const Passage& p) noexcept {
-    const auto answer = link.limiter.admit(p.frame, dialect::is_essential(p.id), p.link.policy.is_verified, p.now);
+    const bool is_trusted = p.link.policy.rank > Rank::stranger && !p.is_repeated;
+    const auto answer = link.limiter.admit(p.frame, dialect::is_essential(p.id), is_trusted, p.now);
     if (answer == EgressLimiter::Answer::rate_limited) link.counters.out_rate_limited.add();
     if (answer == EgressLimiter::Answer::bytes_limited) link.counters.out_bytes_limited.add();
     return answer;
@@ -501,11 +511,6 @@ void Engine::Impl::note_sent(const wire::FrameView& frame, LinkId link, MonoTime
     if (!found || now_ - recent_.time(at) >= echo_window)
         if (recent_.put(hash, now_, window_, found, at)) counters.recent_evicted.add();
     insert(recent_.sent(at), slot);
-    if (has(watched_.data(), slot)) {
-        each_word(words_, [&](std::size_t w) { scratch_[w] = 0; });
-        insert(scratch_.data(), slot);
-        watch_for_returns(frame.system(), scratch_.data());
-    }
 }
 
 }  // namespace mavloom::route

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "mavloom/route/engine.hpp"
-#include "route/departed.hpp"
 #include "route/egress_limiter.hpp"
 #include "route/link_set.hpp"
 #include "route/recent_frames.hpp"
 #include "route/route_table.hpp"
+#include "route/trust.hpp"
 #include "route/zeroed_array.hpp"
 
 namespace mavloom::route {
@@ -21,9 +21,10 @@ class Engine::Impl {
 public:
     Impl(const wire::MessageTable& table, const Options& options);
 
-    bool add_link(LinkId id, const LinkPolicy& policy, std::uint64_t address, const LinkCounters& counts);
+    bool add_link(LinkId id, const LinkPolicy& policy, const LinkCounters& counts);
     void remove_link(LinkId id);
     void close_link(LinkId id);
+    void close_endpoint(std::uint32_t endpoint);
     void set_options(const Options& given);
     void set_group_orders(std::span<const GroupOrder> orders);
     [[nodiscard]] std::uint64_t mark_of(const wire::FrameView& frame) const noexcept;
@@ -39,34 +40,18 @@ public:
 
     [[nodiscard]] Slot slot_of(LinkId id) const noexcept;
 
-    // A system that is alive on another link, and since when it has been heard on this one.
-    struct Claim {
-        SystemId system{};  // 0: none
-        MonoTime since{}, last{};
-        bool is_reported = false;  // as a conflict
-    };
-    // For a link on which an echo arrived: the systems whose frames came back on it. A link that returns everything
-    // brings back frames of all systems. The link of a vehicle whose heartbeats an attacker predicted and sent first
-    // seems to return frames, but only those of that vehicle.
-    struct Returns {
-        std::array<std::uint64_t, 4> systems{};  // set of the systems of which frames came back
-        std::uint32_t kept = 0;                  // frames of other systems since `kept_since`
-        MonoTime kept_since{}, last{};           // `last`: of the last echo
-    };
     struct Link {
         LinkId id;
         LinkPolicy policy;
-        std::uint64_t address;
+        Claimant claimant;
         EgressLimiter limiter;
-        std::uint32_t group = no_group;    // index into groups_
-        std::uint32_t family = no_family;  // index into families_
+        std::uint32_t group = no_group;  // index into groups_
+        std::uint32_t peers = no_peers;  // index into peers_
         bool filters_in = false;
         bool heard = false;
         MonoTime last_heard{};
         std::uint32_t beats = 0;  // HEARTBEATs received, for `best`; see count_beats
         LinkCounters counters{};
-        std::array<Claim, 32> claims{};  // the oldest is replaced, unless it is recent
-        Returns returns{};
         // A cache of the last long list of links to which frames from this link were sent.
         std::uint64_t listed_at = 0;  // links_version_ at that time; 0 if there is no list
         std::size_t listed = 0;       // length
@@ -83,20 +68,16 @@ public:
     std::vector<RouteConflict> conflicts;
 
 private:
-    static constexpr std::uint32_t no_group = ~std::uint32_t{0}, no_family = ~std::uint32_t{0};
+    static constexpr std::uint32_t no_group = ~std::uint32_t{0}, no_peers = ~std::uint32_t{0};
     // At most this many free slots rest; see left_at_.
-    static constexpr std::size_t most_resting = 64;
+    static constexpr std::size_t max_resting = 64;
     static constexpr std::size_t worth_a_list = 8;
-    static constexpr std::size_t most_listed = 1024;  // with more links, the lists would take too much memory
+    static constexpr std::size_t max_listed = 1024;  // with more links, the lists would take too much memory
     // Within this time, a restart reported by another link of the vehicle counts as the same restart.
     static constexpr std::chrono::seconds one_reboot{10};
-    // A link counts as one that returns nothing once this many frames were sent to it, from systems none of whose
-    // frames came back.
-    static constexpr std::uint32_t kept_frames = 5;
-    static constexpr std::chrono::seconds returns_forgotten_after{60};
     // A source heard on A, B, A, B counts as two senders. A sender that merely moves between links does not alternate
     // like that within the timeout.
-    static constexpr std::uint8_t turns_of_duplicates = 4;
+    static constexpr std::uint8_t duplicate_alternations = 4;
 
     struct Group {
         GroupId id;
@@ -105,17 +86,17 @@ private:
         std::vector<Slot> order;  // in the order that `primary` prefers
         Slot current = no_slot;   // the link that `best` uses
     };
-    // The unverified peers of one endpoint in a group.
-    struct Family {
+    // The links of one endpoint in a group.
+    struct Peers {
         GroupId group;
         std::uint32_t endpoint;
         std::vector<std::uint64_t> links;
     };
     struct OutFilter {
-        Filter filter;
+        dialect::Filter filter;
         std::vector<std::uint64_t> links;  // the set of links with this filter
     };
-    struct Turns {
+    struct Alternation {
         LinkId last;  // 0 if there is none
         std::uint8_t count;
         bool is_reported;
@@ -144,35 +125,11 @@ private:
     [[nodiscard]] bool came_by_group(const Passage& p) noexcept;
     void remember(Passage& p, bool found) noexcept;
     void learn(Passage& p) noexcept;
-    // Call for an echo. Learns the route to its sender, unless the link returns everything that is sent to it.
-    // It is not inlined and takes no Passage, so that the compiler keeps that of `route` in registers.
-    [[gnu::noinline]] void learn_from_echo(const wire::FrameView& frame, const wire::MessageInfo* info,
-                                           Slot slot) noexcept;
-    void note_return(Passage& p) noexcept;
-    // Call when a frame of this system is sent to the links of `set`.
-    [[gnu::noinline]] void watch_for_returns(SystemId system, ConstWords set) noexcept;
-    // Whether the route of a frame may be learned. docs/design/security.md has the table of decisions.
-    [[nodiscard]] bool may_learn(const Passage& p) noexcept;
-    [[nodiscard]] Slot where_alive(const Passage& p, ConstWords links) const noexcept;
-    // Whether the system's autopilot is alive on the link.
-    [[nodiscard]] bool is_alive_on(Slot slot, SystemId system, MonoTime now) const noexcept;
-    // Whether the frame's system, if its link went away a moment ago, may be learned on this link.
-    [[nodiscard]] bool may_return(const Passage& p) noexcept;
-    [[nodiscard]] static Place place_of(const Link& link) noexcept;
-    void note_departure(Slot slot);
-    // Whether the system's autopilot is alive on the link, and was there for at least `consistent_for`.
-    [[nodiscard]] bool has_settled(Slot slot, SystemId system) const noexcept;
-    [[nodiscard]] static Pair autopilot_of(SystemId system) noexcept {
-        return pair_of({system, ComponentId{1}});  // MAV_COMP_ID_AUTOPILOT1
-    }
-    // Updates and returns this link's claim to the frame's system. Null if the link has no room for another claim.
-    Claim* note_claim(const Passage& p) noexcept;
-    // Whether the claim is old enough to be believed. It may be null.
-    [[nodiscard]] static bool is_old(const Claim* claim, const Passage& p) noexcept;
-    [[nodiscard]] bool is_consistent(const Passage& p, Slot first) noexcept;
-    void note_conflict(const Passage& p, Slot first) noexcept;
+    // Whether the frame's route may be learned.
+    [[nodiscard]] bool is_believed(const Passage& p) noexcept;
+    void report_conflict(const RouteConflict& conflict) noexcept;
+    void end_lower_routes(const Passage& p) noexcept;
     [[nodiscard]] bool is_origin(Slot slot, const Passage& p) const noexcept;
-    [[nodiscard]] const Route* present_route(Slot slot, const Passage& p) const noexcept;
     // Whether an earlier copy of the frame may make this one a duplicate.
     [[nodiscard]] bool counts_as_heard(const Passage& p) noexcept;
     void count_beats(const Passage& p) noexcept;
@@ -184,6 +141,13 @@ private:
     [[nodiscard]] Verdict choose_by_target(Passage& p) noexcept;
     [[nodiscard]] Verdict to_everybody() noexcept;
     [[nodiscard]] bool choose_links_of(Source target) noexcept;
+    void add_higher_ranks(ConstWords of_system) noexcept;
+    void add_equals(Rank rank, bool is_reached) noexcept;
+    [[nodiscard]] bool is_known_to_equals(SystemId system, Rank rank) const noexcept;
+    // The links of this rank, which is not `stranger`, and above.
+    [[nodiscard]] ConstWords at_least(Rank rank) const noexcept {
+        return (rank == Rank::verified ? verified_ : trusted_).data();
+    }
     void explain_target() noexcept;
     void leave_out_origin(const Passage& p) noexcept;
     void apply_filters(const Passage& p) noexcept;
@@ -191,11 +155,12 @@ private:
     [[nodiscard]] Slot choose_member(Group& group, Words candidates, MonoTime now) noexcept;
     // Whether `choose_member` takes `a` rather than `b`, which comes first in the group's order.
     [[nodiscard]] static bool is_better(const Link& a, const Link& b, GroupMode mode) noexcept;
-    // One word of the set of links that the engine trusts to lead to the same place as this link.
+    // One word of the set of links that the engine trusts to lead to the same place as this link; see Claimant.
     [[nodiscard]] std::uint64_t same_place(const Link& link, std::size_t w) const noexcept {
         if (link.group == no_group) return 0;
         const std::uint64_t members = groups_[link.group].members[w];
-        return link.family == no_family ? members : members & ~families_[link.family].links[w];
+        if (link.peers == no_peers || link.policy.rank == Rank::verified) return members;
+        return members & ~(peers_[link.peers].links[w] & ~verified_[w]);
     }
     [[nodiscard]] bool is_alive(const Link& link, MonoTime now) const noexcept;
     void apply_limits(const Passage& p) noexcept;
@@ -223,7 +188,7 @@ private:
     [[nodiscard]] bool has_empty_group() const noexcept;
     void grow(std::size_t slots);
     [[nodiscard]] std::uint32_t group_index(const Link& link);
-    [[nodiscard]] std::uint32_t family_index(const Link& link);
+    [[nodiscard]] std::uint32_t peers_index(const Link& link);
 
     Nanoseconds window_;  // how long a frame is remembered
     std::size_t words_ = 1;
@@ -235,17 +200,17 @@ private:
     std::deque<Slot> resting_;       // the slots without a link, in the order in which they were left
     std::uint64_t links_version_ = 1;
     RouteTable routes_;
-    Departed departed_;
+    Trust trust_;
     RecentFrames recent_;
-    std::vector<std::uint64_t> ordinary_, taps_, private_, limited_, verified_;  // sets of links
-    std::vector<std::uint64_t> watched_;                                         // links on which an echo arrived
+    // Sets of links. `trusted_`: own and verified.
+    std::vector<std::uint64_t> ordinary_, taps_, private_, limited_, verified_, trusted_;
     std::vector<Group> groups_;
-    std::vector<Family> families_;  // those without links are used again
-    bool has_taps_ = false, has_private_ = false, has_limits_ = false, has_watched_ = false;
+    std::vector<Peers> peers_;  // those without links are used again
+    bool has_taps_ = false, has_private_ = false, has_limits_ = false;
     bool chooses_members_ = false;  // some group of at least two links is `best` or `primary`
     std::vector<OutFilter> filters_;
-    ZeroedArray<Turns> turns_;            // by pair
-    ZeroedArray<std::uint32_t> unknown_;  // frames dropped, by pair
+    ZeroedArray<Alternation> alternations_;  // by pair
+    ZeroedArray<std::uint32_t> unknown_;     // frames dropped, by pair
     std::vector<std::uint64_t> candidates_, scratch_;
     std::vector<LinkId> out_;
     MonoTime now_{};

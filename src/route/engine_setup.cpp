@@ -2,6 +2,7 @@
 // Engine: adding and removing links, changing options, and the lists for reports.
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <chrono>
 #include <functional>
 #include <utility>
@@ -25,9 +26,12 @@ Engine::Impl::Impl(const wire::MessageTable& message_table, const Options& given
       window_(std::max(echo_window, options.dedup)),
       index_(128, no_slot),
       routes_(max_routes, max_routes_per_link),
-      turns_(RouteTable::pairs),
+      alternations_(RouteTable::pairs),
       unknown_(RouteTable::pairs) {
+    conflicts.reserve(max_route_conflicts);
+    duplicates.reserve(max_duplicate_ids);
     routes_.set_timeout(options.route_timeout);
+    trust_.set_route_timeout(options.route_timeout);
     grow(64);
     rebuild();
 }
@@ -40,21 +44,23 @@ Slot Engine::Impl::slot_of(LinkId id) const noexcept {
 }
 
 void Engine::Impl::grow(std::size_t slots) {
+    assert(slots % 64 == 0 && slots > out_.size());
     words_ = slots / 64;
     routes_.resize(words_);
-    for (auto* set : {&ordinary_, &taps_, &private_, &limited_, &verified_, &watched_, &candidates_, &scratch_})
+    for (auto* set : {&ordinary_, &taps_, &private_, &limited_, &verified_, &trusted_, &candidates_, &scratch_})
         set->resize(words_);
     out_.resize(slots);
     ids_.resize(slots);
 }
 
-bool Engine::Impl::add_link(LinkId id, const LinkPolicy& policy, std::uint64_t address, const LinkCounters& counts) {
+bool Engine::Impl::add_link(LinkId id, const LinkPolicy& policy, const LinkCounters& counts) {
     if (id.value == 0 || link_count >= max_links || slot_of(id) != no_slot) return false;
     const std::size_t words = words_;
     const Slot slot = free_slot();
+    assert(links[slot] == nullptr && slot < words_ * 64);
     links[slot].reset(new Link{.id = id,
                                .policy = policy,
-                               .address = address,
+                               .claimant = {id, policy.group, policy.endpoint, policy.rank},
                                .limiter = EgressLimiter(policy.max_rate, policy.max_bytes_per_s),
                                .filters_in = !policy.in.admits_all(),
                                .counters = counts});
@@ -62,6 +68,7 @@ bool Engine::Impl::add_link(LinkId id, const LinkPolicy& policy, std::uint64_t a
     ++link_count;
     routes_.add_link(slot);
     add_to_index(slot);
+    assert(slot_of(id) == slot);
     if (words != words_) {
         rebuild();
         return true;
@@ -71,12 +78,16 @@ bool Engine::Impl::add_link(LinkId id, const LinkPolicy& policy, std::uint64_t a
     return true;
 }
 
-void Engine::Impl::remove_link(LinkId id) {
-    if (const Slot slot = slot_of(id); slot != no_slot) note_departure(slot);
-    close_link(id);
+void Engine::Impl::close_link(LinkId id) {
+    trust_.release([&](const Claimant& by) { return by.link == id; });
+    remove_link(id);
 }
 
-void Engine::Impl::close_link(LinkId id) {
+void Engine::Impl::close_endpoint(std::uint32_t endpoint) {
+    trust_.release([&](const Claimant& by) { return by.endpoint == endpoint; });
+}
+
+void Engine::Impl::remove_link(LinkId id) {
     const Slot slot = slot_of(id);
     if (slot == no_slot) return;
     routes_.remove_link(slot);
@@ -87,27 +98,9 @@ void Engine::Impl::close_link(LinkId id) {
     ids_[slot] = LinkId{};
     resting_.push_back(slot);
     --link_count;
+    assert(slot_of(id) == no_slot);
     if (has_empty_group()) rebuild();
     else note_links_changed();
-}
-
-// A vehicle on a verified link keeps its place until its route would have timed out. On an unverified link it keeps it
-// for as long as one that falls silent, if it had the link for some time: else anybody could connect, claim to be the
-// vehicle and leave, again and again.
-void Engine::Impl::note_departure(Slot slot) {
-    const Place place = place_of(*links[slot]);
-    routes_.each_known(slot, [&](const Route& route) {
-        const SystemId system = source_of(route.pair).system;
-        const MonoTime last{Nanoseconds{route.last_ns()}};
-        if (place.is_verified) departed_.note(system, place, last + options.route_timeout, now_);
-        else if (has_settled(slot, system)) departed_.note(system, place, last + alive_for, now_);
-    });
-}
-
-bool Engine::Impl::has_settled(Slot slot, SystemId system) const noexcept {
-    const Route* const autopilot = routes_.find(slot, autopilot_of(system));
-    return is_alive_on(slot, system, now_) &&
-           now_.time_since_epoch().count() - autopilot->since_ns >= consistent_for.count();
 }
 
 // Prefers a slot that has rested, then a new one. If many rest, takes the one that has rested longest.
@@ -115,7 +108,7 @@ Slot Engine::Impl::free_slot() {
     if (!resting_.empty()) {
         const Slot slot = resting_.front();
         const bool has_rested = now_ - left_at_[slot] >= window_;
-        if (has_rested || resting_.size() >= most_resting || links.size() >= max_links) {
+        if (has_rested || resting_.size() >= max_resting || links.size() >= max_links) {
             if (!has_rested) recent_.retake(slot, now_, window_);
             resting_.pop_front();
             return slot;
@@ -135,6 +128,7 @@ void Engine::Impl::set_options(const Options& given) {
     window_ = std::max(echo_window, options.dedup);
     std::ranges::fill(left_at_, now_);  // the window may have grown, so slots rest again
     routes_.set_timeout(options.route_timeout);
+    trust_.set_route_timeout(options.route_timeout);
     rebuild();
 }
 
@@ -161,6 +155,7 @@ void Engine::Impl::index_links() {
 
 void Engine::Impl::add_to_index(Slot slot) {
     if (index_.size() < 2 * links.size()) return index_links();
+    assert(std::has_single_bit(index_.size()));
     std::size_t at = home(slot);
     while (index_[at] != no_slot) at = (at + 1) & (index_.size() - 1);
     index_[at] = slot;
@@ -187,22 +182,23 @@ std::uint32_t Engine::Impl::group_index(const Link& link) {
     return static_cast<std::uint32_t>(index);
 }
 
-std::uint32_t Engine::Impl::family_index(const Link& link) {
+std::uint32_t Engine::Impl::peers_index(const Link& link) {
     const LinkPolicy& policy = link.policy;
-    if (policy.endpoint == 0 || policy.is_verified) return no_family;
-    const auto same = [&](const Family& f) { return f.group == policy.group && f.endpoint == policy.endpoint; };
-    const auto is_empty = [&](const Family& f) { return !any(f.links.data(), words_); };
-    auto at = std::ranges::find_if(families_, same);
-    if (at == families_.end()) at = std::ranges::find_if(families_, is_empty);
-    if (at == families_.end()) at = families_.insert(at, {{}, 0, std::vector<std::uint64_t>(words_)});
+    if (policy.endpoint == 0) return no_peers;
+    const auto same = [&](const Peers& p) { return p.group == policy.group && p.endpoint == policy.endpoint; };
+    const auto is_empty = [&](const Peers& p) { return !any(p.links.data(), words_); };
+    auto at = std::ranges::find_if(peers_, same);
+    if (at == peers_.end()) at = std::ranges::find_if(peers_, is_empty);
+    if (at == peers_.end()) at = peers_.insert(at, {{}, 0, std::vector<std::uint64_t>(words_)});
     at->group = policy.group;
     at->endpoint = policy.endpoint;
-    return static_cast<std::uint32_t>(at - families_.begin());
+    return static_cast<std::uint32_t>(at - peers_.begin());
 }
 
 // Recomputes all sets that depend on the links and their policies.
 void Engine::Impl::rebuild() {
-    for (auto* set : {&ordinary_, &taps_, &private_, &limited_, &verified_}) std::fill(set->begin(), set->end(), 0);
+    for (auto* set : {&ordinary_, &taps_, &private_, &limited_, &verified_, &trusted_})
+        std::fill(set->begin(), set->end(), 0);
     empty_groups();
     filters_.clear();
     for (Slot slot = 0; slot < links.size(); ++slot)
@@ -230,7 +226,7 @@ void Engine::Impl::empty_groups() {
             links, [&](const auto& l) { return l != nullptr && !l->policy.tap && l->policy.group == group.id; });
     };
     std::erase_if(groups_, std::not_fn(has_link));
-    families_.clear();
+    peers_.clear();
     for (Group& group : groups_) {
         group.members.assign(words_, 0);
         group.order.clear();
@@ -239,13 +235,15 @@ void Engine::Impl::empty_groups() {
 
 // Adds the link to the sets that it belongs to.
 void Engine::Impl::enlist(Slot slot) {
+    assert(links[slot] != nullptr);
     Link& link = *links[slot];
     link.listed_set.resize(words_);
-    link.list.resize(words_ * 64 <= most_listed ? words_ * 64 : 0);
+    link.list.resize(words_ * 64 <= max_listed ? words_ * 64 : 0);
     auto& kind = link.policy.tap ? taps_ : link.policy.is_private ? private_ : ordinary_;
     route::insert(kind.data(), slot);
     if (link.limiter.limits()) route::insert(limited_.data(), slot);
-    if (link.policy.is_verified) route::insert(verified_.data(), slot);
+    if (link.policy.rank == Rank::verified) route::insert(verified_.data(), slot);
+    if (link.policy.rank > Rank::stranger) route::insert(trusted_.data(), slot);
     if (link.policy.tap) return;
     if (!link.policy.out.admits_all()) {
         auto at = std::ranges::find(filters_, link.policy.out, &OutFilter::filter);
@@ -254,8 +252,8 @@ void Engine::Impl::enlist(Slot slot) {
     }
     if (link.policy.group.value == 0) return;
     link.group = group_index(link);
-    link.family = family_index(link);
-    if (link.family != no_family) route::insert(families_[link.family].links.data(), slot);
+    link.peers = peers_index(link);
+    if (link.peers != no_peers) route::insert(peers_[link.peers].links.data(), slot);
     Group& group = groups_[link.group];
     group.members.resize(words_);
     route::insert(group.members.data(), slot);
@@ -265,13 +263,14 @@ void Engine::Impl::enlist(Slot slot) {
 
 // Removes the link from the sets that it belongs to.
 void Engine::Impl::delist(Slot slot) {
-    for (auto* set : {&ordinary_, &taps_, &private_, &limited_, &verified_, &watched_}) erase(set->data(), slot);
+    for (auto* set : {&ordinary_, &taps_, &private_, &limited_, &verified_, &trusted_}) erase(set->data(), slot);
     for (OutFilter& filter : filters_) erase(filter.links.data(), slot);
     std::erase_if(filters_, [&](const OutFilter& filter) { return !any(filter.links.data(), words_); });
     if (links[slot]->group == no_group) return;
+    assert(links[slot]->group < groups_.size() && has(groups_[links[slot]->group].members.data(), slot));
     Group& group = groups_[links[slot]->group];
     erase(group.members.data(), slot);
-    if (const auto family = links[slot]->family; family != no_family) erase(families_[family].links.data(), slot);
+    if (const auto peers = links[slot]->peers; peers != no_peers) erase(peers_[peers].links.data(), slot);
     std::erase(group.order, slot);
     if (group.current == slot) group.current = no_slot;
 }
@@ -281,7 +280,7 @@ bool Engine::Impl::has_empty_group() const noexcept {
 }
 
 static void add_route(std::vector<RouteInfo>& list, LinkId link, const Route& route, MonoTime now, Nanoseconds timeout) {
-    const Nanoseconds age{now.time_since_epoch().count() - route.last_ns()};
+    const Nanoseconds age{now.time_since_epoch().count() - route.heard_ns};
     if (age < timeout) list.push_back({link, source_of(route.pair), std::max(age, Nanoseconds{}), route.frames});
 }
 

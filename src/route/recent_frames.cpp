@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 
 #include "mavloom/base/secret_hash.hpp"
 
@@ -10,6 +11,7 @@ namespace mavloom::route {
 
 std::uint64_t hash_of(ByteView frame, std::uint64_t seed) noexcept {
     constexpr std::uint64_t k0 = 0x9e3779b97f4a7c15u, k1 = 0xd6e8feb86659fd93u;
+    assert(frame.size() >= sizeof(std::uint64_t));
     const std::uint8_t* p = frame.data();
     std::size_t left = frame.size();
     std::uint64_t h = seed ^ folded_product(k0 ^ left, k1 ^ seed);
@@ -27,8 +29,9 @@ void RecentFrames::resize(std::size_t capacity, std::size_t words) {
     const std::size_t stride = 2 + 2 * words;
     if (capacity != 0) {
         capacity = std::bit_ceil(std::max<std::size_t>(capacity, 64));
-        while (capacity > 4096 && capacity * stride * sizeof(std::uint64_t) > most_bytes) capacity /= 2;
+        while (capacity > 4096 && capacity * stride * sizeof(std::uint64_t) > max_bytes) capacity /= 2;
     }
+    assert(capacity == 0 || std::has_single_bit(capacity));
     if (capacity == places_ && words == words_) return;
     RecentFrames grown;
     grown.words_ = words;
@@ -53,6 +56,7 @@ void RecentFrames::resize(std::size_t capacity, std::size_t words) {
 void RecentFrames::retake(Slot slot, MonoTime now, Nanoseconds window) {
     const std::int64_t now_ns = now.time_since_epoch().count();
     if (now_ns - last_retake_ns_ >= window.count()) std::ranges::fill(retaken_, 0);
+    assert(slot < 64 * words_);
     retaken_.resize(words_);
     taken_ns_.resize(64 * words_);
     route::insert(retaken_.data(), slot);
@@ -60,6 +64,7 @@ void RecentFrames::retake(Slot slot, MonoTime now, Nanoseconds window) {
 }
 
 void RecentFrames::remove_stale(std::size_t index) noexcept {
+    assert(retaken_.size() <= words_ && taken_ns_.size() == 64 * retaken_.size());
     for (std::size_t w = 0; w < retaken_.size(); ++w)
         each_in_word((heard(index)[w] | sent(index)[w]) & retaken_[w], static_cast<Slot>(64 * w), [&](Slot slot) {
             if (time_ns(index) > taken_ns_[slot]) return;

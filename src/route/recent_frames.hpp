@@ -6,6 +6,7 @@
 // thread.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -50,7 +51,7 @@ public:
 
 private:
     static constexpr std::size_t ways = 4;
-    static constexpr std::size_t most_bytes = 8u << 20;
+    static constexpr std::size_t max_bytes = 8u << 20;
 
     // A place's index is the index of its first cell.
     [[nodiscard]] std::size_t bucket(std::uint64_t hash) const noexcept {
@@ -75,6 +76,7 @@ private:
 };
 
 inline bool RecentFrames::find(std::uint64_t wanted, std::size_t& index) noexcept {
+    assert(active());
     std::size_t i = index = bucket(wanted);
     for (std::size_t way = 0; way < ways; ++way, i += stride_) {
         if (hash(i) != wanted) continue;
@@ -88,6 +90,7 @@ inline bool RecentFrames::find(std::uint64_t wanted, std::size_t& index) noexcep
 
 inline bool RecentFrames::put(std::uint64_t new_hash, MonoTime now, Nanoseconds window, bool found,
                               std::size_t& index) noexcept {
+    assert(index < end() && index % stride_ == 0);
     bool evicted_young = false;
     if (!found) {
         std::size_t i = index;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <type_traits>
 
 namespace mavloom::route {
@@ -12,15 +13,17 @@ static_assert(std::is_trivially_default_constructible_v<Route>, "so that no page
 static constexpr std::size_t systems = 256;
 
 RouteTable::RouteTable(std::size_t most, std::size_t per_link)
-    : most_(most),
+    : max_routes_(most),
       per_link_(per_link),
       routes_(new Route[most]),
       index_(std::bit_ceil(2 * most)),
       shift_(64u - static_cast<unsigned>(std::countr_zero(index_.size()))) {
+    assert(most != 0 && per_link != 0);
     resize(1);
 }
 
 void RouteTable::resize(std::size_t words) {
+    assert(words != 0 && links_.size() <= words * 64);
     words_ = words;
     pair_links_ = ZeroedArray<std::uint64_t>(pairs * words);
     system_links_ = ZeroedArray<std::uint64_t>(systems * words);
@@ -32,11 +35,13 @@ void RouteTable::resize(std::size_t words) {
 
 void RouteTable::add_link(Slot slot) {
     if (slot >= links_.size()) links_.resize(slot + 1);
+    assert(slot < words_ * 64 && links_[slot].count == 0);
     links_[slot] = Link{};
 }
 
 void RouteTable::remove_link(Slot slot) noexcept {
     while (links_[slot].oldest != none) remove(links_[slot].oldest);
+    assert(links_[slot].count == 0);
 }
 
 void RouteTable::set_timeout(Nanoseconds timeout) noexcept {
@@ -45,6 +50,7 @@ void RouteTable::set_timeout(Nanoseconds timeout) noexcept {
 }
 
 inline Route& RouteTable::renew(Slot slot, Pair pair, Change& change) noexcept {
+    assert(slot < links_.size());
     Link& link = links_[slot];
     std::uint32_t index = link.newest;
     if (index == none || routes_[index].pair != pair) {
@@ -64,28 +70,30 @@ Route& RouteTable::learn(Slot slot, Pair pair, MonoTime now, Change& change) noe
     Route& route = renew(slot, pair, change);
     route.heard_ns = now.time_since_epoch().count();
     ++route.frames;
-    if (route.known != Route::Known::yes) [[unlikely]] {
+    if (!route.is_known()) [[unlikely]] {
         route.since_ns = route.heard_ns;
-        set_learned(route, now, change);
-        route.known = Route::Known::yes;
+        set_known(route);
+        ++change.learned;
+        next_expiry_ns_ = std::min(next_expiry_ns_, route.heard_ns + timeout_ns_);
     }
     return route;
 }
 
-void RouteTable::learn_from_echo(Slot slot, Pair pair, MonoTime now, Change& change) noexcept {
+RouteTable::Claim RouteTable::claim(Slot slot, Pair pair, MonoTime now, Nanoseconds gap, Change& change) noexcept {
     Route& route = renew(slot, pair, change);
-    route.echoed_ns = now.time_since_epoch().count();
-    if (route.is_known()) return;
-    route.heard_ns = route.since_ns = Route::never_heard;
-    set_learned(route, now, change);
-    route.known = Route::Known::by_echo;
+    const std::int64_t now_ns = now.time_since_epoch().count();
+    const bool goes_on = route.known == Route::Known::claimed && now_ns - route.heard_ns < gap.count();
+    if (!goes_on) route.since_ns = route.heard_ns = now_ns;
+    const Claim claim{MonoTime{Nanoseconds{route.since_ns}}, MonoTime{Nanoseconds{route.heard_ns}}};
+    route.heard_ns = now_ns;
+    route.known = Route::Known::claimed;
+    next_expiry_ns_ = std::min(next_expiry_ns_, now_ns + timeout_ns_);
+    return claim;
 }
 
-void RouteTable::set_learned(Route& route, MonoTime now, Change& change) noexcept {
-    if (route.is_known()) return;
-    set_known(route);
-    ++change.learned;
-    next_expiry_ns_ = std::min(next_expiry_ns_, now.time_since_epoch().count() + timeout_ns_);
+void RouteTable::forget(Slot slot, Pair pair) noexcept {
+    const std::uint32_t index = index_[place_of(slot, pair)] - 1;
+    if (index != none && routes_[index].is_known()) set_unknown(routes_[index]);
 }
 
 // The place of the route in index_, or the empty place where it belongs.
@@ -97,19 +105,20 @@ std::size_t RouteTable::place_of(Slot slot, Pair pair) const noexcept {
 }
 
 Route& RouteTable::insert(Slot slot, Pair pair, std::size_t place, Change& change) noexcept {
-    if (links_[slot].count >= per_link_ || count_ >= most_) {
+    if (links_[slot].count >= per_link_ || count_ >= max_routes_) {
         make_room(slot, change);
         place = place_of(slot, pair);
     }
+    assert(count_ < max_routes_ && links_[slot].count < per_link_ && index_[place] == 0);
     std::uint32_t index = free_;
     if (index != none) {
         free_ = routes_[index].newer;
     } else {
         index = static_cast<std::uint32_t>(used_++);
     }
-    routes_[index] = Route{.heard_ns = Route::never_heard,
-                           .since_ns = Route::never_heard,
-                           .echoed_ns = Route::never_heard,
+    assert(index < used_ && used_ <= max_routes_);
+    routes_[index] = Route{.heard_ns = 0,
+                           .since_ns = 0,
                            .frames = 0,
                            .older = none,
                            .newer = none,
@@ -127,12 +136,15 @@ void RouteTable::make_room(Slot slot, Change& change) noexcept {
     const auto fewer = [](const Link& a, const Link& b) { return a.count < b.count; };
     const bool own_limit = links_[slot].count >= per_link_;
     const Link& from = own_limit ? links_[slot] : *std::max_element(links_.begin(), links_.end(), fewer);
+    assert(from.oldest != none);
     remove(from.oldest);
     ++change.evicted;
 }
 
 void RouteTable::set_known(Route& route) noexcept {
+    assert(route.slot < links_.size());
     const std::size_t system = route.pair >> 8;
+    route.known = Route::Known::yes;
     route::insert(&pair_links_[route.pair * words_], route.slot);
     if (system_counts_[system * words_ * 64 + route.slot]++ == 0)
         route::insert(&system_links_[system * words_], route.slot);
@@ -140,6 +152,8 @@ void RouteTable::set_known(Route& route) noexcept {
 
 void RouteTable::set_unknown(Route& route) noexcept {
     const std::size_t system = route.pair >> 8;
+    assert(route.is_known() && system_counts_[system * words_ * 64 + route.slot] != 0);
+    assert(has(&pair_links_[route.pair * words_], route.slot));
     route.known = Route::Known::no;
     erase(&pair_links_[route.pair * words_], route.slot);
     if (--system_counts_[system * words_ * 64 + route.slot] == 0) erase(&system_links_[system * words_], route.slot);
@@ -156,13 +170,17 @@ void RouteTable::append(std::uint32_t index) noexcept {
 void RouteTable::unlink(std::uint32_t index) noexcept {
     const Route& route = routes_[index];
     Link& link = links_[route.slot];
+    assert((route.older != none ? routes_[route.older].newer : link.oldest) == index);
+    assert((route.newer != none ? routes_[route.newer].older : link.newest) == index);
     (route.older != none ? routes_[route.older].newer : link.oldest) = route.newer;
     (route.newer != none ? routes_[route.newer].older : link.newest) = route.older;
 }
 
 void RouteTable::remove(std::uint32_t index) noexcept {
     Route& route = routes_[index];
+    assert(index < used_ && count_ != 0 && links_[route.slot].count != 0);
     if (route.is_known()) set_unknown(route);
+    assert(index_[place_of(route.slot, route.pair)] == index + 1);
     erase_place(place_of(route.slot, route.pair));
     unlink(index);
     --links_[route.slot].count;
@@ -192,12 +210,12 @@ void RouteTable::forget_system(Slot slot, SystemId system) noexcept {
 void RouteTable::expire_now(std::int64_t now_ns, Change& change) noexcept {
     next_expiry_ns_ = never;
     for (Link& link : links_) {
-        while (link.oldest != none && now_ns - routes_[link.oldest].last_ns() >= timeout_ns_) {
+        while (link.oldest != none && now_ns - routes_[link.oldest].heard_ns >= timeout_ns_) {
             change.expired += routes_[link.oldest].is_known() ? 1 : 0;
             remove(link.oldest);
         }
         if (link.oldest != none)
-            next_expiry_ns_ = std::min(next_expiry_ns_, routes_[link.oldest].last_ns() + timeout_ns_);
+            next_expiry_ns_ = std::min(next_expiry_ns_, routes_[link.oldest].heard_ns + timeout_ns_);
     }
 }
 

@@ -29,22 +29,19 @@ using Pair = std::uint16_t;  // system * 256 + component
 }
 
 struct Route {
-    std::int64_t heard_ns;   // steady clock; `never_heard` if there were only echoes
-    std::int64_t since_ns;   // when the route became known, other than by an echo
-    std::int64_t echoed_ns;  // the last frame that was an echo
+    std::int64_t heard_ns;  // the last frame; steady clock
+    std::int64_t since_ns;  // when the route became known, or the claim began
     std::uint64_t frames;
     std::uint32_t older, newer;  // neighbors in the list of the link's routes by age
     Slot slot;
     Pair pair;
     enum class Known : std::uint8_t {
-        no,  // a reboot made the table forget the route; the entry then only keeps `frames`
-        by_echo,
+        no,       // forgotten; the entry then only keeps `frames`
+        claimed,  // heard, but not believed
         yes
     } known;
 
-    static constexpr std::int64_t never_heard = std::numeric_limits<std::int64_t>::min() / 2;
-    [[nodiscard]] bool is_known() const noexcept { return known != Known::no; }
-    [[nodiscard]] std::int64_t last_ns() const noexcept { return std::max(heard_ns, echoed_ns); }
+    [[nodiscard]] bool is_known() const noexcept { return known == Known::yes; }
 };
 
 class RouteTable {
@@ -68,9 +65,15 @@ public:
     }
     // Adds or refreshes the route for a frame of this source. The reference is valid until the next call.
     Route& learn(Slot slot, Pair pair, MonoTime now, Change& change) noexcept;
-    // The same for an echo. It counts neither as heard nor as a frame.
-    void learn_from_echo(Slot slot, Pair pair, MonoTime now, Change& change) noexcept;
-    // Forgets all routes of the system on one link.
+    // Frames of a source that is not believed on the link, without a gap: the first one, and the one before this.
+    struct Claim {
+        MonoTime since, last_heard;
+    };
+    // Notes such a frame.
+    Claim claim(Slot slot, Pair pair, MonoTime now, Nanoseconds gap, Change& change) noexcept;
+    // Forgets the route, but keeps its count of frames.
+    void forget(Slot slot, Pair pair) noexcept;
+    // The same for all routes of the system on one link.
     void forget_system(Slot slot, SystemId system) noexcept;
     // Null if the source is not known on the link. Valid until the next call that changes the table.
     [[nodiscard]] const Route* find(Slot slot, Pair pair) const noexcept {
@@ -108,7 +111,6 @@ private:
     [[nodiscard]] std::size_t place_of(Slot slot, Pair pair) const noexcept;
     // Finds or adds the entry, and makes it the newest of its link.
     Route& renew(Slot slot, Pair pair, Change& change) noexcept;
-    void set_learned(Route& route, MonoTime now, Change& change) noexcept;
     Route& insert(Slot slot, Pair pair, std::size_t place, Change& change) noexcept;
     void make_room(Slot slot, Change& change) noexcept;
     void set_known(Route& route) noexcept;
@@ -119,7 +121,7 @@ private:
     void erase_place(std::size_t place) noexcept;
     void expire_now(std::int64_t now_ns, Change& change) noexcept;
 
-    std::size_t most_, per_link_, words_ = 1;
+    std::size_t max_routes_, per_link_, words_ = 1;
     std::size_t used_ = 0;       // the first used_ entries of routes_ have been in use at some time
     std::uint32_t free_ = none;  // head of the free list, linked by `newer`
     std::size_t count_ = 0;

@@ -28,7 +28,7 @@ std::string_view reason_text(Reason reason) noexcept {
         case Reason::ingress: return "it came from this link";
         case Reason::same_group: return "it came from another link of the same group";
         case Reason::source_here: return "its own sender was heard on this link";
-        case Reason::other_target: return "its target was not heard on this link";
+        case Reason::other_target: return "its target has no route on this link";
         case Reason::private_link: return "a private link on which the exact target was not heard";
         case Reason::filtered: return "filtered on the way out";
         case Reason::other_member: return "another link of the group carries it";

@@ -3,6 +3,7 @@
 // table take no memory. Private to module route.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdlib>
 #include <memory>
@@ -25,8 +26,14 @@ public:
         at_ = static_cast<T*>(std::align(cache_line, size * sizeof(T), begin, room));
     }
 
-    [[nodiscard]] T& operator[](std::size_t i) noexcept { return at_[i]; }
-    [[nodiscard]] const T& operator[](std::size_t i) const noexcept { return at_[i]; }
+    [[nodiscard]] T& operator[](std::size_t i) noexcept {
+        assert(i < size_);
+        return at_[i];
+    }
+    [[nodiscard]] const T& operator[](std::size_t i) const noexcept {
+        assert(i < size_);
+        return at_[i];
+    }
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
 
 private:

@@ -12,8 +12,19 @@ namespace mavloom::router {
 
 namespace {
 
-route::FilterTerms terms_of(std::string_view option, const endpoint::FilterTerms& terms) {
-    return {option, terms.messages, terms.systems, terms.components};
+// A list of terms, and the name of its option.
+struct Terms {
+    std::string_view option;
+    const endpoint::FilterTerms& terms;
+};
+
+SetupResult<dialect::Filter> make_filter(const dialect::Dialect& dialect, Terms allow, Terms block) {
+    dialect::Filter filter;
+    if (auto done = filter.allow(dialect, allow.terms); !done)
+        return tl::unexpected(std::move(done.error()).within(allow.option));
+    if (auto done = filter.block(dialect, block.terms); !done)
+        return tl::unexpected(std::move(done.error()).within(block.option));
+    return filter;
 }
 
 }  // namespace
@@ -88,9 +99,9 @@ std::optional<link::EndpointId> RoutedEndpoints::inlet() const noexcept {
 SetupResult<route::LinkPolicy> RoutedEndpoints::policy_of(const endpoint::Endpoint& endpoint) {
     const auto& o = endpoint.options;
     route::LinkPolicy policy;
-    auto in = route::Filter::compile(dialect_, terms_of("in_allow", o.in_allow), terms_of("in_block", o.in_block));
+    auto in = make_filter(dialect_, {"in_allow", o.in_allow}, {"in_block", o.in_block});
     if (!in) return tl::unexpected(std::move(in.error()));
-    auto out = route::Filter::compile(dialect_, terms_of("out_allow", o.out_allow), terms_of("out_block", o.out_block));
+    auto out = make_filter(dialect_, {"out_allow", o.out_allow}, {"out_block", o.out_block});
     if (!out) return tl::unexpected(std::move(out.error()));
     auto rates = dialect::Rates::compile(dialect_, o.max_rate);
     if (!rates) return tl::unexpected(std::move(rates.error()).within("max_rate"));
@@ -102,7 +113,6 @@ SetupResult<route::LinkPolicy> RoutedEndpoints::policy_of(const endpoint::Endpoi
     policy.max_bytes_per_s = o.max_bytes_per_s;
     policy.tap = o.tap;
     policy.is_private = o.is_private;
-    policy.is_verified = !o.verify_key_file.empty();
     policy.learns_first = o.learns_first;
     policy.group = groups_.id_of(o.group);
     policy.group_mode = groups_.mode_of(o);

@@ -13,7 +13,7 @@
 
 namespace mavloom::router {
 
-static_assert(link::Links::longest_late < route::Engine::echo_window);
+static_assert(link::Links::max_late < route::Engine::echo_window);
 
 namespace {
 
@@ -26,6 +26,9 @@ route::Options engine_options(const config::RouterConfig& config) {
     if (config.heartbeat)
         options.own = Source{SystemId{config.heartbeat->first}, ComponentId{config.heartbeat->second}};
     options.seed = secret_hash(0);
+#ifdef MAVLOOM_MINIMAL
+    options.recent_frames = 1u << 13;  // 256 KiB instead of 2 MiB: 2 s at 4,000 frames/s
+#endif
     return options;
 }
 
@@ -43,19 +46,14 @@ void Forwarder::configure(const config::RouterConfig& config) {
     own_messages_.configure(config);
 }
 
-// A number for the far end of a link. The name of a peer ends with "#HOST:PORT"; when the peer connects again, it has
-// another port.
-static std::uint64_t address_of(std::string_view name) {
-    const bool is_peer = name.find('#') != std::string_view::npos;
-    return std::hash<std::string_view>{}(is_peer ? name.substr(0, name.rfind(':')) : name);
-}
-
 // The router sends its own messages neither to taps nor to the inlet: programs at the inlet read the ring, which does
 // not contain these messages.
 bool Forwarder::add_link(LinkId link, const RoutedEndpoint& endpoint) {
     const auto before = down_.find(link);
     const auto counts = before == down_.end() ? route::LinkCounters{} : before->second;
-    if (!engine_.add_link(link, endpoint.policy, address_of(links_.link_name(link)), counts)) return false;
+    route::LinkPolicy policy = endpoint.policy;
+    policy.rank = links_.rank(link);
+    if (!engine_.add_link(link, policy, counts)) return false;
     down_.erase(link);
     if (!endpoint.policy.tap && !endpoint.is_inlet)
         own_messages_.add(link, wants_heartbeat(endpoint.endpoint), links_.now());
@@ -72,7 +70,7 @@ void Forwarder::remove_link(LinkId link) {
 route::Decision Forwarder::decide(const link::RxFrame& rx, std::uint64_t mark) {
     traffic_.add(rx.link, rx.frame, rx.time);
     if (rx.frame.id() == msg::Heartbeat::id) {
-        traffic_.note_heartbeat(rx.link, rx.frame);
+        newest_heartbeats_.note(rx.link, rx.frame.source(), rx.frame.payload());
         own_messages_.on_heartbeat(rx.link, rx.frame, links_.now());
     }
     if (!explainer_) [[likely]]
@@ -83,15 +81,13 @@ route::Decision Forwarder::decide(const link::RxFrame& rx, std::uint64_t mark) {
 }
 
 void Forwarder::deliver(const link::RxFrame& rx, const route::Decision& decision, const RoutedEndpoint& from) {
-    send(rx, decision.links, from.verifies && !rx.is_repeated);
+    send(rx, decision.links);
     if (decision.verdict != route::Verdict::echo) count_loss(rx, from.policy);
 }
 
-// Signs only frames whose own signature was verified, so that the router never vouches for unverified traffic. A new
-// signature on a copy would hide from its receiver that it is one. Verified frames also leave first.
-void Forwarder::send(const link::RxFrame& rx, std::span<const LinkId> links, bool is_verified) {
-    if (is_verified) return void(links_.send(links, rx.frame));
-    const std::size_t not_signed = links_.send_unverified(links, rx.frame);
+// A new signature on a copy would hide from its receiver that it is one.
+void Forwarder::send(const link::RxFrame& rx, std::span<const LinkId> links) {
+    const std::size_t not_signed = links_.forward(links, rx.frame, rx.is_repeated ? Rank::stranger : rx.rank);
     if (not_signed != 0) [[unlikely]]
         note_not_signed(rx, not_signed);
 }
@@ -108,14 +104,15 @@ void Forwarder::note_not_signed(const link::RxFrame& rx, std::size_t links) {
     warnings_.push_back(fmt::format(
         "a command from {}/{} on {} went out unsigned on a link with sign=, because it arrived unverified; a vehicle "
         "that requires signatures ignores it. Let the sender sign with the same key, and set verify=KEYFILE on the "
-        "endpoint where its frames arrive",
+        "endpoint where its frames arrive; or, if you trust all programs of this machine, set sign_all=true beside "
+        "sign=",
         rx.frame.source().system.value, rx.frame.source().component.value, name_of(rx.link)));
 }
 
 // Ignores reboots shown by frames that teach no route: those from taps, those that the input filter drops, and signed
 // frames that another endpoint has heard.
 void Forwarder::count_loss(const link::RxFrame& rx, const route::LinkPolicy& policy) {
-    if (links_.count_loss(rx).verdict != wire::SequenceTracker::Verdict::reboot) [[likely]]
+    if (rx.loss->count(rx.frame, rx.info).verdict != wire::SequenceTracker::Verdict::reboot) [[likely]]
         return;
     if (!policy.tap && !rx.is_repeated && policy.in.admits(rx.frame.id(), rx.frame.source()))
         engine_.note_reboot(rx.link, rx.frame.source(), links_.now());
@@ -143,10 +140,25 @@ const route::LinkCounters* Forwarder::verdicts(LinkId link) const {
     return at == down_.end() ? nullptr : &at->second;
 }
 
-std::vector<std::string> Forwarder::look_after() {
+std::string Forwarder::text_of(const route::RouteConflict& conflict) const {
+    const auto first = name_of(conflict.first), second = name_of(conflict.second);
+    if (conflict.is_believed)
+        return fmt::format(
+            "system {} is alive on {} and was learned on {} too: redundant links that need group=, or a "
+            "sender that claims to be it, which verify= or learn=first prevent",
+            conflict.system.value, first, second);
+    return fmt::format(
+        "system {} is alive on {}, so {} gets nothing that is addressed to it; if you know the sender "
+        "there, trusted=true at its endpoint believes it",
+        conflict.system.value, first, second);
+}
+
+std::vector<std::string> Forwarder::maintain() {
     if (std::exchange(has_removed_link_, false)) {
-        traffic_.forget_links_unless([&](LinkId link) { return links_.counters(link) != nullptr; });
-        std::erase_if(down_, [&](const auto& link) { return links_.counters(link.first) == nullptr; });
+        const auto is_there = [&](LinkId link) { return links_.counters(link) != nullptr; };
+        traffic_.forget_links_unless(is_there);
+        newest_heartbeats_.forget_links_unless(is_there);
+        std::erase_if(down_, [&](const auto& link) { return !is_there(link.first); });
     }
     auto warnings = std::exchange(warnings_, {});
     const auto ids = engine_.duplicate_ids();
@@ -156,11 +168,7 @@ std::vector<std::string> Forwarder::look_after() {
                         id.source.system.value, id.source.component.value, name_of(id.first), name_of(id.second)));
     const auto conflicts = engine_.route_conflicts();
     for (const auto& conflict : conflicts.subspan(std::exchange(route_conflicts_reported_, conflicts.size())))
-        warnings.push_back(
-            fmt::format("system {} is alive on {} and was learned on {} too: redundant links that need "
-                        "group=, components on several links, or a sender that claims to be it, which "
-                        "verify= or learn=first prevent",
-                        conflict.system.value, name_of(conflict.first), name_of(conflict.second)));
+        warnings.push_back(text_of(conflict));
     return warnings;
 }
 

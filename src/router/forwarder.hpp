@@ -21,6 +21,7 @@
 #include "mavloom/observe/traffic_table.hpp"
 #include "mavloom/route/engine.hpp"
 #include "router/endpoints.hpp"
+#include "router/newest_heartbeats.hpp"
 #include "router/own_messages.hpp"
 
 namespace mavloom::router {
@@ -43,6 +44,8 @@ public:
     void remove_link(LinkId link);
     // Call it first for a link that is closed on purpose; see Engine::close_link.
     void close_link(LinkId link) { engine_.close_link(link); }
+    // Call it for an endpoint that is closed on purpose; see Engine::close_endpoint.
+    void close_endpoint(const RoutedEndpoint& endpoint) { engine_.close_endpoint(endpoint.policy.endpoint); }
     void set_group_orders(std::span<const route::GroupOrder> orders) { engine_.set_group_orders(orders); }
 
     // Call these three, in order, for each received frame. `mark_of` prefetches the entry that `decide` needs, so call
@@ -60,34 +63,37 @@ public:
     // Call about once a second. Forgets the traffic and verdicts of links that are gone. Returns one warning for each
     // newly found id that two senders use, for each vehicle that was learned on a second link, and for the first
     // command that went out unsigned.
-    [[nodiscard]] std::vector<std::string> look_after();
+    [[nodiscard]] std::vector<std::string> maintain();
 
     [[nodiscard]] const route::Engine& engine() const noexcept { return engine_; }
     [[nodiscard]] const observe::TrafficTable& traffic() const noexcept { return traffic_; }
+    [[nodiscard]] const NewestHeartbeats& newest_heartbeats() const noexcept { return newest_heartbeats_; }
     [[nodiscard]] std::uint64_t heartbeats_sent() const noexcept { return own_messages_.heartbeats_sent(); }
     // Frames sent unsigned on a link with `sign=`, because they arrived on a link without `verify=`.
     [[nodiscard]] std::uint64_t not_signed() const noexcept { return not_signed_.value(); }
 
 private:
-    void send(const link::RxFrame& rx, std::span<const LinkId> links, bool is_verified);
+    void send(const link::RxFrame& rx, std::span<const LinkId> links);
     void note_not_signed(const link::RxFrame& rx, std::size_t links);
     void count_loss(const link::RxFrame& rx, const route::LinkPolicy& policy);
     bool send_own(LinkId link, const wire::FrameView& frame);
     [[nodiscard]] bool is_answered(LinkId link) const;
     [[nodiscard]] std::string name_of(LinkId link) const;
+    [[nodiscard]] std::string text_of(const route::RouteConflict& conflict) const;
 
     link::LinkAccess& links_;
     route::Engine engine_;
     OwnMessages own_messages_;
     observe::TrafficTable traffic_;
+    NewestHeartbeats newest_heartbeats_;
     std::map<LinkId, route::LinkCounters> down_;  // verdicts of links that are down and may come up again
     Explainer explainer_;
     std::vector<route::Explanation> why_;
     Counter not_signed_;
     bool has_warned_of_unsigned_ = false;
-    std::vector<std::string> warnings_;  // for the next look_after()
+    std::vector<std::string> warnings_;  // for the next maintain()
     std::size_t duplicate_ids_reported_ = 0, route_conflicts_reported_ = 0;
-    bool has_removed_link_ = false;  // `traffic_` and `down_` may have a link that is gone
+    bool has_removed_link_ = false;  // the tables above may have a link that is gone
 };
 
 }  // namespace mavloom::router

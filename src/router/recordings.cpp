@@ -60,8 +60,8 @@ std::vector<endpoint::Endpoint> Recordings::endpoints() const {
     return all;
 }
 
-void Recordings::look_after() {
-    for (const auto& open : open_) open.recorder->look_after();
+void Recordings::maintain() {
+    for (const auto& open : open_) open.recorder->maintain();
     std::erase_if(ending_, [](const auto& recorder) { return recorder->finished(); });
 }
 

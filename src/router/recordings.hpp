@@ -37,7 +37,7 @@ public:
         for (const auto& open : open_) open.recorder->publish();
     }
     // Frees removed recordings whose frames have all been written.
-    void look_after();
+    void maintain();
     // Writes the queued frames and closes all files.
     void stop();
 

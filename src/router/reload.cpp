@@ -14,13 +14,11 @@ namespace mavloom::router {
 
 // Whether silence on the endpoint is worth a report. A server may wait for clients as long as it likes.
 static bool expects_frames(const endpoint::Endpoint& endpoint) noexcept {
-    return !endpoint.options.tap && endpoint.scheme != endpoint::Scheme::tcpin;
+    return !endpoint.options.tap && !endpoint.accepts_clients();
 }
 
 SetupResult<void> Router::add(const endpoint::Endpoint& endpoint) {
-    if (endpoint.scheme == endpoint::Scheme::tlog) return recordings_->add(endpoint);
-    if (endpoint.scheme == endpoint::Scheme::shm)
-        return setup_error(SetupCode::usage, endpoint::ring_is_no_endpoint(endpoint));
+    if (endpoint.is_recording()) return recordings_->add(endpoint);
     if (endpoint.options.heartbeat.value_or(false) && !has_heartbeat_)
         return setup_error(SetupCode::usage, fmt::format("{}: {}", endpoint.label(), config::heartbeat_needs_id));
     auto added = endpoints_->add(endpoint);
@@ -33,10 +31,8 @@ bool Router::remove(std::string_view label) {
     const RoutedEndpoint* const endpoint = endpoints_->find(label);
     if (endpoint == nullptr) return close_link(label);
     for (const auto& link : links_->links())
-        if (link.endpoint == endpoint->id) {
-            forwarder_->close_link(link.id);
-            forget_link(link.id);
-        }
+        if (link.endpoint == endpoint->id) forget_link(link.id);
+    forwarder_->close_endpoint(*endpoint);
     silence_->remove(endpoint->id);
     endpoints_->remove(*endpoint);
     return true;

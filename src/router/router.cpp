@@ -10,6 +10,7 @@
 #include "mavloom/control/post_box.hpp"
 #include "mavloom/link/flush.hpp"
 #include "mavloom/link/silence_watch.hpp"
+#include "mavloom/ring/own_page.hpp"
 #include "mavloom/ring/tap.hpp"
 #include "router/endpoints.hpp"
 #include "router/forwarder.hpp"
@@ -20,7 +21,7 @@ namespace mavloom::router {
 
 using namespace std::chrono_literals;
 
-static constexpr Nanoseconds look_interval = 1s;  // interval of look_after()
+static constexpr Nanoseconds maintain_interval = 1s;  // interval of maintain()
 
 Router::Router(const dialect::Dialect& dialect, const config::RouterConfig& config, Notice notice,
                std::unique_ptr<link::Links> links)
@@ -55,10 +56,17 @@ SetupResult<std::unique_ptr<Router>> Router::create(const dialect::Dialect& dial
 
 SetupResult<void> Router::open_ring(const config::RingConfig& config) {
     auto opened = ring::RingTap::open(config.name, {config.capacity_bytes, config.full, config.mode},
-                                      [this] { post([this] { look_after_ring(); }); });
+                                      [this] { post([this] { maintain_ring(); }); });
     if (!opened) return tl::unexpected(std::move(opened.error()));
     ring_ = std::move(*opened);
     links_->count_from(ring_->last_link());
+    return {};
+}
+
+SetupResult<void> Router::open_page(const std::string& name) {
+    auto opened = ring::OwnPage::open(name);
+    if (!opened) return tl::unexpected(std::move(opened.error()));
+    page_ = std::make_unique<ring::OwnPage>(std::move(*opened));
     return {};
 }
 
@@ -75,6 +83,7 @@ const route::Engine& Router::engine() const noexcept { return forwarder_->engine
 const route::LinkCounters* Router::verdicts(LinkId link) const { return forwarder_->verdicts(link); }
 
 const observe::TrafficTable& Router::traffic() const noexcept { return forwarder_->traffic(); }
+const NewestHeartbeats& Router::newest_heartbeats() const noexcept { return forwarder_->newest_heartbeats(); }
 
 std::uint64_t Router::heartbeats_sent() const noexcept { return forwarder_->heartbeats_sent(); }
 
@@ -101,6 +110,7 @@ void Router::on_frame(const link::RxFrame& rx) {
 
 void Router::on_link_up(LinkId link, link::EndpointId endpoint, std::string_view name) {
     if (ring_) ring_->on_link_up(link, name);
+    if (page_) page_->on_link_up(link, name);
     RoutedEndpoint& at = endpoints_->of(endpoint);
     if (!forwarder_->add_link(link, at))
         return notice_(config::LogLevel::warning, fmt::format("{}: more than {} links; the router sends nothing to it",
@@ -117,6 +127,7 @@ void Router::on_link_down(LinkId link, link::EndpointId endpoint, std::string_vi
 
 void Router::forget_link(LinkId link) {
     if (ring_) ring_->on_link_down(link);
+    if (page_) page_->on_link_down(link);
     forwarder_->remove_link(link);
     silence_->on_link_down(link, links_->counters(link));
 }
@@ -130,13 +141,17 @@ void Router::turn(MonoTime deadline) {
     const std::size_t frames = links_->turn(*this, std::min({deadline, next_due(), work_due}));
     const MonoTime now = mono_now();
     if (frames != 0) recordings_->publish();
-    if (ring_) {
-        ring_->note_turn(frames, now);
-        if (now >= ring_->page_due()) refresh_page();
-    }
+    note_turn(frames, now);
     if (!posted_->empty() && now >= work_due_) run_posted(now);
     forwarder_->send_due(now);
-    if (now >= look_due_) look_after(now);
+    if (now >= maintain_due_) maintain(now);
+}
+
+void Router::note_turn(std::size_t frames, MonoTime now) {
+    if (ring_) ring_->note_turn(frames, now);
+    else if (page_) page_->note_turn(frames, now);
+    else return;
+    if (now >= (ring_ ? ring_->page_due() : page_->due())) refresh_page();
 }
 
 // Runs one item, because reports take long and frames go first. The next item waits four times as long as this one
@@ -148,8 +163,8 @@ void Router::run_posted(MonoTime now) {
 }
 
 MonoTime Router::next_due() const noexcept {
-    const MonoTime due = std::min(look_due_, forwarder_->next_due());
-    return ring_ ? std::min(due, ring_->page_due()) : due;
+    const MonoTime due = std::min(maintain_due_, forwarder_->next_due());
+    return ring_ ? std::min(due, ring_->page_due()) : page_ ? std::min(due, page_->due()) : due;
 }
 
 void Router::finish(Nanoseconds limit) {
@@ -161,13 +176,14 @@ void Router::finish(Nanoseconds limit) {
     while (!posted_->empty()) posted_->run_one();
     endpoints_->remove_inlet();
     ring_.reset();
+    page_.reset();
 }
 
 // The limits matter in a flood, or after costly frames (ReadBudget). A turn may read only junk, so a single turn
 // without a frame does not end the loop.
 void Router::handle_arrived(MonoTime end) {
-    constexpr int most_turns = 64, most_empty = 4;
-    for (int turns = 0, empty = 0; turns < most_turns && empty < most_empty && mono_now() < end; ++turns)
+    constexpr int max_turns = 64, max_empty = 4;
+    for (int turns = 0, empty = 0; turns < max_turns && empty < max_empty && mono_now() < end; ++turns)
         empty = links_->turn(*this, MonoTime{}) == 0 ? empty + 1 : 0;
 }
 
@@ -178,25 +194,41 @@ void Router::post(std::function<void()> work) {
 
 void Router::drop_posted() { posted_->drop(); }
 
-void Router::look_after(MonoTime now) {
-    look_due_ = now + look_interval;
+void Router::maintain(MonoTime now) {
+    maintain_due_ = now + maintain_interval;
     endpoints_->refill_lines();
-    look_after_ring();
+    maintain_ring();
     report_silence(now);
-    recordings_->look_after();
-    for (const auto& warning : forwarder_->look_after()) notice_(config::LogLevel::warning, warning);
+    recordings_->maintain();
+    for (const auto& warning : forwarder_->maintain()) notice_(config::LogLevel::warning, warning);
 }
 
 void Router::report_silence(MonoTime now) {
-    for (const auto& text : link::look_for_silence(*silence_, *links_, now)) notice_(config::LogLevel::warning, text);
+    for (const auto& text : link::poll_silence(*silence_, *links_, now)) notice_(config::LogLevel::warning, text);
 }
 
-void Router::look_after_ring() {
-    if (!ring_) return;
-    for (const auto& text : ring_->look_after(*links_)) notice_(config::LogLevel::warning, text);
+void Router::maintain_ring() {
+    if (!ring_ && !page_) return;
+    for (const auto& text : ring_ ? ring_->maintain(*links_) : page_->maintain(*links_))
+        notice_(config::LogLevel::warning, text);
+    sum_verdicts();
     refresh_page();
 }
 
-void Router::refresh_page() { ring_->refresh_page(*links_, endpoints_->inlet()); }
+void Router::refresh_page() {
+    if (ring_) ring_->refresh_page(*links_, endpoints_->inlet(), page_counts_);
+    else page_->refresh(*links_, endpoints_->inlet(), page_counts_);
+}
+
+// The verdicts of all links together: the counters of each link would make the page too long. Once a second, because
+// there may be thousands of links.
+void Router::sum_verdicts() {
+    page_counts_.clear();
+    for (const auto& verdict : route::link_verdicts) page_counts_.push_back({verdict.name, 0, shm::CounterType::gauge});
+    for (const LinkId link : links_->link_ids())
+        if (const auto* const of_link = verdicts(link))
+            for (std::size_t i = 0; i < page_counts_.size(); ++i)
+                page_counts_[i].value += (of_link->*route::link_verdicts[i].word).value();
+}
 
 }  // namespace mavloom::router

@@ -25,7 +25,7 @@ namespace mavloom::router {
 class StreamRequests {
 public:
     static constexpr std::chrono::seconds interval{30};
-    static constexpr std::size_t most_sources = 1024;
+    static constexpr std::size_t max_sources = 1024;
     static constexpr int new_at_once = 256, new_per_second = 20;
 
     // Notes a heartbeat of an ArduPilot. Returns true if the router should ask it now.
@@ -57,7 +57,7 @@ private:
     }
     [[nodiscard]] bool add(Key key, MonoTime now) {
         if (!pace_.take(now)) return false;
-        if (asked_.size() >= most_sources)
+        if (asked_.size() >= max_sources)
             asked_.erase(std::ranges::min_element(asked_, {}, [](const auto& entry) { return entry.second.heard; }));
         asked_.emplace(key, Asked{now, now});
         return true;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstring>
 #include <numeric>
 #include <utility>
@@ -23,7 +24,7 @@ namespace {
 
 constexpr std::string_view page_suffix = ".stat";
 constexpr std::size_t owner_byte = 0;
-constexpr int most_reads = 100;
+constexpr int max_reads = 100;
 
 std::size_t page_bytes(std::uint32_t counters, std::uint32_t links) {
     return page_header_bytes + sizeof(CounterSlot) * counters + sizeof(LinkSlot) * links;
@@ -50,7 +51,7 @@ SetupResult<PageHeader> header_of(const Segment& segment) {
     if (header.major != page_major)
         return wrong(fmt::format("is a counter page of version {}.{}; this program supports {}.{}", header.major,
                                  header.minor, page_major, page_minor));
-    if (header.counters > most_page_slots || header.links > most_page_slots ||
+    if (header.counters > max_page_slots || header.links > max_page_slots ||
         segment.size() < page_bytes(header.counters, header.links))
         return wrong("is a truncated counter page");
     return header;
@@ -88,7 +89,7 @@ void change(Slot& slot, Change&& make) noexcept {
 // changing.
 template <class Slot, class Look>
 auto read_slot(const Slot& slot, Look&& look) -> std::optional<decltype(look(slot))> {
-    for (int attempt = 0; attempt < most_reads; ++attempt) {
+    for (int attempt = 0; attempt < max_reads; ++attempt) {
         const std::uint64_t before = slot.version.load(std::memory_order_acquire);
         auto found = look(slot);
         if (before % 2 == 0 && slot.version.load(std::memory_order_acquire) == before) return found;
@@ -128,9 +129,9 @@ std::optional<std::uint32_t> take_last(std::vector<std::uint32_t>& slots) noexce
 }
 
 SetupResult<void> check_options(const CounterPageOptions& options) {
-    if (options.counters > most_page_slots || options.links > most_page_slots)
+    if (options.counters > max_page_slots || options.links > max_page_slots)
         return setup_error(SetupCode::usage,
-                           fmt::format("a counter page has room for at most {} counters and links", most_page_slots));
+                           fmt::format("a counter page has room for at most {} counters and links", max_page_slots));
     return {};
 }
 
@@ -158,7 +159,7 @@ SetupResult<CounterPage> CounterPage::create(std::string_view name, const Counte
     if (auto good = check_options(options); !good) return tl::unexpected(std::move(good.error()));
     const std::string path = path_of(name, page_suffix);
     std::string set_aside;
-    for (int attempt = 0; attempt < most_reads; ++attempt) {
+    for (int attempt = 0; attempt < max_reads; ++attempt) {
         auto created = create_page(path, options);
         if (created) {
             CounterPage page(std::make_unique<Segment>(std::move(*created)), options);
@@ -224,8 +225,10 @@ void CounterPage::remove(Counter* counter) noexcept {
     CounterSlot* const slots = counters_in(*segment_);
     const auto distance = reinterpret_cast<std::uint8_t*>(counter) - reinterpret_cast<std::uint8_t*>(slots);
     const auto index = static_cast<std::uint32_t>(static_cast<std::size_t>(distance) / sizeof(CounterSlot));
+    assert(distance >= 0 && index < slots_ && counter == reinterpret_cast<Counter*>(&slots[index].value));
     if (slots[index].type.load(std::memory_order_relaxed) == 0) return;  // removed already
     change(slots[index], [](CounterSlot& slot) { slot.type.store(0, std::memory_order_release); });
+    assert(free_counters_.size() < slots_);
     free_counters_.push_back(index);
 }
 
@@ -249,6 +252,7 @@ void CounterPage::forget_link(LinkId link) {
     if (known == links_.end()) return;
     change(links_in(*segment_, slots_)[known->second],
            [](LinkSlot& slot) { slot.used.store(0, std::memory_order_release); });
+    assert(std::ranges::find(free_links_, known->second) == free_links_.end());
     free_links_.push_back(known->second);
     links_.erase(known);
 }

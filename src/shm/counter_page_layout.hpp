@@ -15,7 +15,7 @@ inline constexpr std::array<char, 8> page_magic{'M', 'V', 'L', 'S', 'T', 'A', 'T
 inline constexpr std::uint16_t page_major = 1;
 inline constexpr std::uint16_t page_minor = 0;
 inline constexpr std::size_t page_header_bytes = 128;
-inline constexpr std::uint32_t most_page_slots = 1 << 20;
+inline constexpr std::uint32_t max_page_slots = 1 << 20;
 inline constexpr std::uint32_t no_link = 0xffffffff;
 
 struct PageHeader {

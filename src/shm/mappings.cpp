@@ -5,16 +5,18 @@
 
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cerrno>
 
 #include "mavloom/shm/lost_mapping.hpp"
 
 namespace mavloom::shm {
 
-static constexpr std::size_t most_mappings = 256;
-static std::array<Mapping, most_mappings> mappings;
+static constexpr std::size_t max_mappings = 256;
+static std::array<Mapping, max_mappings> mappings;
 
 Mapping* add_mapping(std::uint8_t* begin, std::size_t size) noexcept {
+    assert(begin != nullptr && size != 0);
     for (Mapping& mapping : mappings) {
         if (mapping.used.exchange(true, std::memory_order_acquire)) continue;
         mapping.lost.store(false, std::memory_order_relaxed);
@@ -28,6 +30,7 @@ Mapping* add_mapping(std::uint8_t* begin, std::size_t size) noexcept {
 
 void remove_mapping(Mapping* mapping) noexcept {
     if (mapping == nullptr) return;
+    assert(mapping->used.load(std::memory_order_relaxed));
     mapping->begin.store(nullptr, std::memory_order_release);
     mapping->used.store(false, std::memory_order_release);
 }

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstring>
 #include <utility>
 
@@ -17,7 +18,7 @@ namespace mavloom::shm {
 namespace {
 
 constexpr std::size_t retired_offset = offsetof(RingControl<SharedWords>, retired);
-constexpr int most_attempts = 100;  // retries when other processes create or remove the ring meanwhile
+constexpr int max_attempts = 100;  // retries when other processes create or remove the ring meanwhile
 
 tl::unexpected<SetupError> wrong(const std::string& path, std::string_view what) {
     return setup_error(SetupCode::bad_input, fmt::format("{}: {}", path, what));
@@ -100,6 +101,7 @@ tl::unexpected<SetupError> has_writer(std::string_view name, const Segment& segm
 WallTime unix_time() noexcept { return wall_now(); }
 
 RingMemory<SharedWords> memory_of(const Segment& segment) noexcept {
+    assert(segment.data() != nullptr && std::has_single_bit(segment.size() - data_offset));
     std::uint8_t* const base = segment.data();
     return {reinterpret_cast<RingControl<SharedWords>*>(base),
             reinterpret_cast<ReaderSlot<SharedWords>*>(base + slots_offset),
@@ -130,7 +132,7 @@ void retire(const Segment& segment) noexcept {
 
 SetupResult<Segment> writer_segment(std::string_view name, const RingOptions& options, std::string* set_aside) {
     if (auto good = check_options(options); !good) return tl::unexpected(std::move(good.error()));
-    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    for (int attempt = 0; attempt < max_attempts; ++attempt) {
         auto present = open_ring(name, Segment::Access::read_write, check_owner);
         if (!present && present.error().code != SetupCode::not_found) {
             if (!options.sets_aside || !rename_aside(path_of(name))) return present;

@@ -3,6 +3,7 @@
 // other processes may change it. Any thread.
 #pragma once
 
+#include <cassert>
 #include <functional>
 #include <memory>
 
@@ -13,7 +14,10 @@
 namespace mavloom::shm {
 
 inline constexpr std::size_t writer_byte = 0;  // the writer holds the lock on this byte; slot n uses byte n + 1
-[[nodiscard]] constexpr std::size_t slot_byte(unsigned slot) noexcept { return slot + 1; }
+[[nodiscard]] constexpr std::size_t slot_byte(unsigned slot) noexcept {
+    assert(slot < reader_slots);
+    return slot + 1;
+}
 
 // Opens an existing ring: first checks its owner and mode by `check`, then its identity, before anything reads it
 // through the mapping. `not_found` lists the rings that exist.

@@ -18,7 +18,7 @@ bool RingFollower::try_open() {
     if (reader_) return true;
     if (error_ && error_->code == SetupCode::not_found && !is_there(name_)) return false;
     ReaderOptions options = options_;
-    if (std::exchange(looked_, true)) options.from = ReaderOptions::From::oldest;
+    if (std::exchange(attempted_, true)) options.from = ReaderOptions::From::oldest;
     auto reader = RingReader::open(name_, options);
     if (!reader) {
         error_ = std::move(reader.error());
@@ -64,7 +64,7 @@ ReadResult<RingRecord> RingFollower::read(MonoTime deadline) {
         }
         const MonoTime now = mono_now();
         if (now >= deadline) return tl::unexpected(ReadError::no_writer);
-        std::this_thread::sleep_for(std::min<Nanoseconds>(look_distance, deadline - now));
+        std::this_thread::sleep_for(std::min<Nanoseconds>(poll_interval, deadline - now));
     }
 }
 

@@ -83,19 +83,23 @@ SetupResult<void> unlink_if_there(const std::string& path) {
 
 }  // namespace
 
-std::vector<std::string> ring_names() {
+// A name with a dot is none. So without a suffix, this skips counter pages.
+static std::vector<std::string> names_with(std::string_view suffix) {
     std::vector<std::string> names;
     const std::unique_ptr<DIR, CloseFolder> folder(::opendir(std::string(shared_folder).c_str()));
     if (!folder) return names;
     while (const dirent* entry = ::readdir(folder.get())) {
         const std::string_view file = entry->d_name;
-        if (!file.starts_with(prefix)) continue;
-        const auto name = file.substr(prefix.size());
-        if (check_name(name)) names.emplace_back(name);  // also skips counter pages
+        if (!file.starts_with(prefix) || !file.ends_with(suffix)) continue;
+        const auto name = file.substr(prefix.size(), file.size() - prefix.size() - suffix.size());
+        if (check_name(name)) names.emplace_back(name);
     }
     std::ranges::sort(names);
     return names;
 }
+
+std::vector<std::string> ring_names() { return names_with(""); }
+std::vector<std::string> counter_page_names() { return names_with(".stat"); }
 
 SetupResult<RingStatus> ring_status(std::string_view name) {
     const auto segment = open_ring(name, Segment::Access::read_only, check_survivable);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -14,9 +15,9 @@
 
 namespace mavloom::shm {
 
-static constexpr Nanoseconds look_at_writer = std::chrono::milliseconds(100);
-static constexpr Nanoseconds poll_distance = std::chrono::milliseconds(1);
-static constexpr unsigned spins_per_look = 256;
+static constexpr Nanoseconds writer_check_interval = std::chrono::milliseconds(100);
+static constexpr Nanoseconds poll_interval = std::chrono::milliseconds(1);
+static constexpr unsigned spins_per_check = 256;
 
 static void relax() noexcept {
 #if defined(__x86_64__) || defined(__i386__)
@@ -41,7 +42,7 @@ RingReader& RingReader::operator=(RingReader&& other) noexcept {
     forked_ = other.forked_;
     slot_ = std::exchange(other.slot_, std::nullopt);
     consumer_ = std::move(other.consumer_);
-    next_look_at_writer_ = other.next_look_at_writer_;
+    next_writer_check_ = other.next_writer_check_;
     waiting_since_ = other.waiting_since_;
     armed_ = other.armed_;
     return *this;
@@ -96,6 +97,7 @@ static std::array<std::uint64_t, 2> program_name() noexcept {
 // Holding the lock claims the slot. Inspectors list it only after begin() sets its bit in `attached`, when its position
 // is valid. The slot's previous owner may have been killed, so its bits are cleared before any field is set.
 std::optional<unsigned> RingReader::take_slot() noexcept {
+    assert(segment_->writable() && !slot_);
     const auto ring = memory_of(*segment_);
     for (unsigned index = 0; index < reader_slots; ++index) {
         if (!segment_->try_lock(slot_byte(index))) continue;
@@ -126,7 +128,7 @@ ReadResult<RingRecord> RingReader::wait(MonoTime deadline) noexcept {
     for (unsigned spins = 0;; ++spins) {
         auto record = try_read();
         if (record || record.error() != ReadError::empty) return record;
-        if (options_.spin && spins % spins_per_look != 0) {
+        if (options_.spin && spins % spins_per_check != 0) {
             relax();
             continue;
         }
@@ -145,15 +147,16 @@ ReadResult<RingRecord> RingReader::wait(MonoTime deadline) noexcept {
 // The first naps are short, because the writer wakes readers at most once per millisecond. Later naps last until the
 // next check that the writer is alive.
 Nanoseconds RingReader::nap(MonoTime waiting_since, MonoTime now, MonoTime deadline) const noexcept {
-    const bool is_short = !slot_ || now < waiting_since + poll_distance;
-    return std::min<Nanoseconds>(is_short ? poll_distance : look_at_writer, deadline - now);
+    assert(waiting_since <= now && now < deadline);
+    const bool is_short = !slot_ || now < waiting_since + poll_interval;
+    return std::min<Nanoseconds>(is_short ? poll_interval : writer_check_interval, deadline - now);
 }
 
 std::optional<ReadError> RingReader::why_no_record(MonoTime now) noexcept {
     if (consumer_.retired()) return ReadError::retired;
     const bool closed = memory_of(*segment_).control->writer_pid.load(std::memory_order_acquire) == 0;
-    if (!closed && now < next_look_at_writer_) return std::nullopt;
-    next_look_at_writer_ = now + look_at_writer;
+    if (!closed && now < next_writer_check_) return std::nullopt;
+    next_writer_check_ = now + writer_check_interval;
     if (writer_alive()) return std::nullopt;
     return ReadError::no_writer;
 }
@@ -171,14 +174,14 @@ ReadResult<RingRecord> RingReader::poll() noexcept {
 }
 
 Nanoseconds RingReader::arm() noexcept {
-    if (forked()) return poll_distance;
-    if (!slot_) return consumer_.more_waits() ? Nanoseconds{} : poll_distance;
+    if (forked()) return poll_interval;
+    if (!slot_) return consumer_.more_waits() ? Nanoseconds{} : poll_interval;
     const MonoTime now = mono_now();
     if (waiting_since_ == MonoTime{}) waiting_since_ = now;
-    const bool asks = now >= waiting_since_ + detail::wake_distance;  // see Consumer::sleep()
+    const bool asks = now >= waiting_since_ + detail::wake_interval;  // see Consumer::sleep()
     if (asks && !consumer_.fall_asleep()) armed_ = now;
     if (consumer_.more_waits()) return {};
-    return !asks || now < armed_ + detail::wake_distance ? detail::wake_distance : look_at_writer;
+    return !asks || now < armed_ + detail::wake_interval ? detail::wake_interval : writer_check_interval;
 }
 
 std::shared_ptr<const SharedWords::Word32> RingReader::wake_word() const {

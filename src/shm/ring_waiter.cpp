@@ -2,12 +2,14 @@
 #include "mavloom/shm/ring_waiter.hpp"
 
 #include <linux/futex.h>
+#include <linux/time_types.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cassert>
 #include <cerrno>
 #include <mutex>
 #include <optional>
@@ -33,7 +35,7 @@ struct Watched {
 [[nodiscard]] bool sleep_on_all(std::span<futex_waitv> words, MonoTime until) noexcept {
     const auto since_epoch = until.time_since_epoch();
     const auto seconds = std::chrono::floor<std::chrono::seconds>(since_epoch);
-    const timespec end{seconds.count(), (since_epoch - seconds).count()};
+    const __kernel_timespec end{seconds.count(), (since_epoch - seconds).count()};
     const auto woken = ::syscall(SYS_futex_waitv, words.data(), static_cast<unsigned>(words.size()), 0u,
                                  until == MonoTime::max() ? nullptr : &end, CLOCK_MONOTONIC);
     return woken >= 0 || (errno != ENOSYS && errno != EPERM);
@@ -117,7 +119,8 @@ private:
     }
 
     void sleep(std::uint32_t changes) noexcept {
-        std::array<futex_waitv, most_rings + 1> words;
+        assert(rings_.size() <= max_rings);
+        std::array<futex_waitv, max_rings + 1> words;
         std::size_t count = 0;
         words[count++] = sleep_on(changes_, changes);
         for (const auto& [word, seen] : rings_) words[count++] = sleep_on(*word, seen);
@@ -146,7 +149,7 @@ void RingWaiter::watch(std::vector<WakeWord> rings) {
     if (!thread_ && rings.empty()) return;
     if (!thread_) thread_ = std::make_unique<Thread>(wake_);
     std::vector<Watched> watched;
-    for (std::size_t i = 0; i < std::min(rings.size(), most_rings); ++i) {
+    for (std::size_t i = 0; i < std::min(rings.size(), max_rings); ++i) {
         const auto seen = rings[i]->load(std::memory_order_seq_cst);
         watched.push_back({std::move(rings[i]), seen});
     }

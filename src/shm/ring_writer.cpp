@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <utility>
 
 #include "mavloom/shm/counter_page.hpp"
@@ -16,10 +17,10 @@
 namespace mavloom::shm {
 
 // The longest time for which the hold of a killed reader can block a waiting writer.
-static constexpr Nanoseconds look_for_dead = std::chrono::milliseconds(10);
+static constexpr Nanoseconds dead_check_sleep = std::chrono::milliseconds(10);
 // Minimum time between two checks for dead readers, however often a full ring is written to. Each check makes a system
 // call per blocking reader.
-static constexpr Nanoseconds look_distance = std::chrono::milliseconds(1);
+static constexpr Nanoseconds dead_check_interval = std::chrono::milliseconds(1);
 
 RingWriter::RingWriter(std::string name, const RingOptions& options, std::unique_ptr<Segment> segment)
     : name_(std::move(name)),
@@ -40,7 +41,7 @@ RingWriter& RingWriter::operator=(RingWriter&& other) noexcept {
     segment_ = std::move(other.segment_);
     forked_ = other.forked_;
     producer_ = other.producer_;
-    looked_for_dead_ = other.looked_for_dead_;
+    dead_checked_ = other.dead_checked_;
     created_ = other.created_;
     return *this;
 }
@@ -65,6 +66,7 @@ SetupResult<RingWriter> RingWriter::open(std::string_view name, const RingOption
 }
 
 SetupResult<void> RingWriter::begin() {
+    assert(segment_->writable());
     segment_->populate();
     if (!producer_.recover())
         return setup_error(SetupCode::bad_input,
@@ -120,6 +122,7 @@ WriteResult<void> RingWriter::make_room(std::size_t length, MonoTime deadline) n
 
 // Returns success if another attempt to claim is worthwhile.
 WriteResult<void> RingWriter::wait_for_room(std::size_t length, MonoTime deadline) noexcept {
+    assert(segment_ && length <= longest());
     const std::uint64_t blockers = producer_.blockers(length);
     if (blockers == 0) return {};
     if (options_.when_full == WhenFull::evict) {
@@ -129,8 +132,8 @@ WriteResult<void> RingWriter::wait_for_room(std::size_t length, MonoTime deadlin
         return {};
     }
     const MonoTime now = mono_now();
-    if (now >= looked_for_dead_ + look_distance) {
-        looked_for_dead_ = now;
+    if (now >= dead_checked_ + dead_check_interval) {
+        dead_checked_ = now;
         drop_dead(blockers);
         if (producer_.blockers(length) == 0) return {};
     }
@@ -140,7 +143,7 @@ WriteResult<void> RingWriter::wait_for_room(std::size_t length, MonoTime deadlin
     }
     if (now >= deadline) return tl::unexpected(WriteError::full);
     producer_.wake_readers_now();  // a sleeping or napping reader may be the one that holds
-    producer_.sleep_for_room(length, std::min(looked_for_dead_ + look_for_dead, deadline) - now);
+    producer_.sleep_for_room(length, std::min(dead_checked_ + dead_check_sleep, deadline) - now);
     return {};
 }
 
@@ -163,6 +166,7 @@ void RingWriter::count_dropped() noexcept {
 }
 
 LinkId RingWriter::last_link() const noexcept {
+    assert(segment_);
     const auto ring = memory_of(*segment_);
     const std::uint64_t tail = producer_.tail();
     std::uint32_t last = 0;

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cerrno>
 #include <utility>
 
@@ -146,6 +147,7 @@ Segment::~Segment() {
 }
 
 SetupResult<void> Segment::map() {
+    assert(data_ == nullptr && mapping_ == nullptr);
     const bool writes = access_ == Access::read_write;
     const int fd = ::open(path_of_descriptor(locks_->get()).c_str(), (writes ? O_RDWR : O_RDONLY) | O_CLOEXEC);
     if (fd < 0) return cannot_open(path_, errno);
@@ -159,16 +161,18 @@ SetupResult<void> Segment::map() {
 }
 
 void Segment::set_retired_word(std::size_t offset) noexcept {
+    assert(offset % alignof(std::uint32_t) == 0 && offset + sizeof(std::uint32_t) <= size_);
     if (mapping_ != nullptr) mapping_->retired_word.store(offset, std::memory_order_relaxed);
 }
 
 // Failure is harmless: if the kernel lacks MADV_POPULATE, or the file was shortened, nothing changes.
 void Segment::populate() noexcept {
+    assert(data_ != nullptr);
     constexpr std::size_t most = 64 << 20;
     ::madvise(data_, std::min(size_, most), writable() ? MADV_POPULATE_WRITE : MADV_POPULATE_READ);
 }
 
-SetupResult<Segment> Segment::open(const std::string& path, Access access, std::size_t least_bytes, const Check& check) {
+SetupResult<Segment> Segment::open(const std::string& path, Access access, std::size_t min_bytes, const Check& check) {
     const int flags = (access == Access::read_write ? O_RDWR : O_RDONLY) | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
     const int fd = ::open(path.c_str(), flags);
     if (fd < 0) return cannot_open(path, errno);
@@ -179,15 +183,16 @@ SetupResult<Segment> Segment::open(const std::string& path, Access access, std::
         return setup_error(SetupCode::bad_input, fmt::format("{} is not a regular file", path));
     if (auto trusted = check(segment); !trusted) return tl::unexpected(std::move(trusted.error()));
     segment.size_ = static_cast<std::size_t>(status.st_size);
-    if (segment.size_ < least_bytes)
+    if (segment.size_ < min_bytes)
         return setup_error(SetupCode::bad_input, fmt::format("{} is truncated: {} bytes instead of at least {}", path,
-                                                             segment.size_, least_bytes));
+                                                             segment.size_, min_bytes));
     if (auto mapped = segment.map(); !mapped) return tl::unexpected(std::move(mapped.error()));
     return segment;
 }
 
 SetupResult<Segment> Segment::create(const std::string& path, std::size_t size, unsigned mode, ByteView content,
                                      const Segment* replaced) {
+    assert(content.size() <= size && (mode & ~0777u) == 0);
     const auto folder = path.substr(0, path.rfind('/'));
     const int fd = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, mode);
     if (fd < 0) return no_space(path, size, errno);

@@ -45,8 +45,8 @@ public:
     // owner could shorten it meanwhile.
     using Check = std::function<SetupResult<void>(const Segment&)>;
     // Opens and maps an existing file. Errors: `not_found`; `permission` names the owner; `bad_input` if it is not a
-    // regular file or is shorter than `least_bytes`; the error of `check`.
-    [[nodiscard]] static SetupResult<Segment> open(const std::string& path, Access access, std::size_t least_bytes,
+    // regular file or is shorter than `min_bytes`; the error of `check`.
+    [[nodiscard]] static SetupResult<Segment> open(const std::string& path, Access access, std::size_t min_bytes,
                                                    const Check& check);
     // Creates and maps a file of `size` bytes that begins with `content`. Holds the lock on byte 0 before the file gets
     // its name. Removes the name of `replaced` only at the last step, when nothing else can fail. Errors: `in_use` if

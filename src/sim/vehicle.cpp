@@ -109,9 +109,14 @@ SetupResult<void> Vehicle::disarm(bool force) {
     return of_outcome(parts_->flight.disarm(force, OrderedBy::operator_console));
 }
 
+SetupResult<void> Vehicle::go_to(double latitude, double longitude, std::optional<double> altitude_m) {
+    RepositionOrder order{.latitude = latitude, .longitude = longitude};
+    if (altitude_m) order.altitude = parts_->flight.home_altitude() + *altitude_m;
+    return of_outcome(parts_->flight.reposition(order));
+}
+
 SetupResult<void> Vehicle::take_off(double altitude_m) {
-    const auto& home = parts_->flight.home();
-    const double base = home ? home->altitude : parts_->flight.ground_altitude();
+    const double base = parts_->flight.home_altitude();
     const auto climb = [&] { return of_outcome(parts_->flight.take_off({.altitude = base + altitude_m})); };
     const auto arm_first = [&] { return parts_->flight.armed() ? SetupResult<void>{} : arm(false); };
     // PX4 changes to its take-off mode and climbs when it is armed. ArduPilot's copter takes off in Guided, armed.

@@ -17,20 +17,28 @@ namespace {
 
 constexpr std::size_t frames_per_turn = 4096;  // of rings that are read
 
-// Half of what the line carries with ten bits a byte, as PX4 does: the rest is for answers and parameters.
-std::uint32_t usual_limit(const endpoint::Endpoint& endpoint) noexcept {
-    if (endpoint.scheme != endpoint::Scheme::serial) return 0;
+// Bytes that a serial line carries in a second, with ten bits a byte. 0: not a serial line.
+std::uint32_t line_speed(const endpoint::Endpoint& endpoint) noexcept {
+    if (endpoint.row().form != endpoint::Form::device) return 0;
     constexpr std::uint32_t usual_baud = 57600;  // of telemetry radios, for baud=auto
-    return (endpoint.options.baud == 0 ? usual_baud : endpoint.options.baud) / 20;
+    return (endpoint.options.baud == 0 ? usual_baud : endpoint.options.baud) / 10;
+}
+
+// Links count real seconds, streams count seconds of the flight. 0: no limit.
+std::uint32_t per_flight_second(std::uint64_t bytes_s, double speed) noexcept {
+    constexpr double most = 0xFFFF'FFFF;
+    if (bytes_s == 0) return 0;
+    return static_cast<std::uint32_t>(std::clamp(static_cast<double>(bytes_s) / speed, 1.0, most));
 }
 
 LinkRates rates_of(const SimEndpoint& given, const SimulatorOptions& options) {
-    constexpr std::uint64_t most = 0xFFFF'FFFF;
-    const auto limit = given.endpoint.options.max_bytes_per_s;
-    LinkRates rates{
-        .profile = given.profile ? given.profile : options.profile,
-        .max_bytes_s = limit ? static_cast<std::uint32_t>(std::min(*limit, most)) : usual_limit(given.endpoint),
-        .rates = given.rates};
+    const std::uint32_t line = line_speed(given.endpoint);
+    // Usually half of a line, as in PX4: the rest is for answers and parameters.
+    const auto limit = given.endpoint.options.max_bytes_per_s.value_or(line / 2);
+    LinkRates rates{.profile = given.profile ? given.profile : options.profile,
+                    .max_bytes_s = per_flight_second(limit, options.speed),
+                    .line_bytes_s = line,
+                    .rates = given.rates};
     rates.rates.insert(rates.rates.end(), options.rates.begin(), options.rates.end());
     return rates;
 }
@@ -44,7 +52,7 @@ endpoint::Endpoint without_limit(endpoint::Endpoint endpoint) {
 }  // namespace
 
 SetupResult<void> Simulator::check(const endpoint::Endpoint& endpoint) {
-    if (endpoint.scheme == endpoint::Scheme::tlog)
+    if (endpoint.is_recording())
         return setup_error(
             SetupCode::usage,
             fmt::format("{}: a simulator writes no recordings; record the endpoint that it sends to, with "
@@ -59,10 +67,10 @@ SetupResult<void> Connections::add(const SimEndpoint& given) {
     if (auto good = Simulator::check(given.endpoint); !good) return good;
     const auto endpoint = without_limit(given.endpoint);
     const LinkRates rates = rates_of(given, parts_.options);
-    if (endpoint.scheme == endpoint::Scheme::shm) return add_ring(endpoint, rates);
+    if (endpoint.is_ring()) return add_ring(endpoint, rates);
     const auto added = parts_.links.add(endpoint);
     if (!added) return tl::unexpected(added.error());
-    places_[*added].rates = rates;
+    states_[*added].rates = rates;
     return {};
 }
 
@@ -76,10 +84,10 @@ SetupResult<void> Connections::add_ring(const endpoint::Endpoint& endpoint, cons
         rings_->remove(*ring);
         return tl::unexpected(sends.error());
     }
-    places_[*ring].is_one_link = true;
-    Place& place = places_[*sends];
-    place.rates = rates;
-    place.ring = *ring;
+    states_[*ring].is_one_link = true;
+    EndpointState& state = states_[*sends];
+    state.rates = rates;
+    state.ring = *ring;
     return {};
 }
 
@@ -87,7 +95,7 @@ SetupResult<void> Connections::open_inlet(const config::RingConfig& config, cons
     const auto added = parts_.links.add_inlet(config.name, socket, config.mode);
     if (!added) return tl::unexpected(added.error());
     inlet_ = *added;
-    places_[*added] = {.link = parts_.shared.ring_link(), .is_one_link = true};
+    states_[*added] = {.link = parts_.shared.ring_link(), .is_one_link = true};
     return {};
 }
 
@@ -107,11 +115,11 @@ bool Connections::remove(std::string_view label) {
 void Connections::forget(link::EndpointId endpoint) {
     for (const auto& link : parts_.links.links())
         if (link.endpoint == endpoint) close(link.id);
-    const auto place = places_.find(endpoint);
-    const auto ring = place == places_.end() ? std::nullopt : place->second.ring;
-    places_.erase(endpoint);
+    const auto state = states_.find(endpoint);
+    const auto ring = state == states_.end() ? std::nullopt : state->second.ring;
+    states_.erase(endpoint);
     if (!ring) return parts_.links.remove(endpoint);
-    places_.erase(*ring);
+    states_.erase(*ring);
     rings_->remove(*ring);  // and the endpoint that sends to its inlet
 }
 
@@ -132,6 +140,7 @@ void Connections::open_ring_link() {
 
 void Connections::open(LinkId link, const LinkRates& rates, std::string_view name) {
     open_[link] = name;
+    if (rates.line_bytes_s != 0) parts_.lines.open(link, rates.line_bytes_s);
     parts_.fleet.open(link, rates, now());
 }
 
@@ -139,38 +148,39 @@ void Connections::close(LinkId link) {
     const auto opened = open_.find(link);
     if (opened == open_.end()) return;
     if (parts_.options.keeps_reports) {
-        if (closed_.size() == most_closed_reports) closed_.erase(closed_.begin());
+        if (closed_.size() == max_closed_reports) closed_.erase(closed_.begin());
         closed_.push_back(report_of(link, opened->second));
     }
     open_.erase(opened);
+    parts_.lines.close(link);
     parts_.fleet.close(link);
 }
 
 void Connections::on_link_up(LinkId link, link::EndpointId endpoint, std::string_view name) {
-    Place& place = places_[endpoint];
-    if (place.is_one_link && endpoint != inlet_) return;  // a link in a ring that is read
+    EndpointState& state = states_[endpoint];
+    if (state.is_one_link && endpoint != inlet_) return;  // a link in a ring that is read
     parts_.shared.on_link_up(link, name);
-    if (place.lines.spend()) parts_.notice(config::LogLevel::info, fmt::format("{}: up", name));
-    if (place.is_one_link) return;
-    if (place.ring) places_[*place.ring].link = link;
-    open(link, place.rates, name);
+    if (state.lines.spend()) parts_.notice(config::LogLevel::info, fmt::format("{}: up", name));
+    if (state.is_one_link) return;
+    if (state.ring) states_[*state.ring].link = link;
+    open(link, state.rates, name);
 }
 
 void Connections::on_link_down(LinkId link, link::EndpointId endpoint, std::string_view why) {
-    Place& place = places_[endpoint];
-    if (place.is_one_link && endpoint != inlet_) return;
-    if (place.lines.spend())
+    EndpointState& state = states_[endpoint];
+    if (state.is_one_link && endpoint != inlet_) return;
+    if (state.lines.spend())
         parts_.notice(config::LogLevel::info, fmt::format("{}: down, {}", parts_.links.link_name(link), why));
     parts_.shared.on_link_down(link);
-    if (place.ring) places_[*place.ring].link.reset();
+    if (state.ring) states_[*state.ring].link.reset();
     close(link);
 }
 
 void Connections::on_notice(link::EndpointId, std::string_view text) { parts_.notice(config::LogLevel::info, text); }
 
 void Connections::refill_lines() {
-    for (auto& [endpoint, place] : places_)
-        if (const auto suppressed = place.lines.refill(); suppressed != 0)
+    for (auto& [endpoint, state] : states_)
+        if (const auto suppressed = state.lines.refill(); suppressed != 0)
             parts_.notice(config::LogLevel::info, counted(suppressed, "more link") + " came or went");
 }
 
@@ -178,9 +188,9 @@ void Connections::refill_lines() {
 
 void Connections::on_frame(const link::RxFrame& rx) {
     ++frames_received_;
-    const auto place = places_.find(rx.endpoint);
-    if (place == places_.end() || (place->second.is_one_link && !place->second.link)) return;
-    parts_.fleet.receive(place->second.link.value_or(rx.link), rx.frame, rx.info, now());
+    const auto state = states_.find(rx.endpoint);
+    if (state == states_.end() || (state->second.is_one_link && !state->second.link)) return;
+    parts_.fleet.receive(state->second.link.value_or(rx.link), rx.frame, rx.info, now());
 }
 
 MonoTime Connections::rings_due() { return rings_ ? rings_->due(ring::Room(frames_per_turn)) : MonoTime::max(); }

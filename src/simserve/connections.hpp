@@ -19,6 +19,7 @@
 #include "simserve/fleet.hpp"
 #include "simserve/flight_clock.hpp"
 #include "simserve/shared_memory.hpp"
+#include "simserve/slow_lines.hpp"
 
 namespace mavloom::simserve {
 
@@ -30,6 +31,7 @@ public:
         link::Links& links;
         const FlightClock& clock;
         SharedMemory& shared;
+        SlowLines& lines;
         Fleet& fleet;
         const SimulatorOptions& options;
         const Simulator::Notice& notice;
@@ -60,7 +62,7 @@ public:
     void on_notice(link::EndpointId endpoint, std::string_view text) override;
 
 private:
-    struct Place {
+    struct EndpointState {
         LinkRates rates{};
         // For several links that count as one: the senders of a ring's inlet, and the links in a ring that is read.
         std::optional<LinkId> link{};
@@ -68,7 +70,7 @@ private:
         std::optional<link::EndpointId> ring{};  // for the endpoint that sends to a ring's inlet: the ring
         LineBudget lines{};
     };
-    static constexpr std::size_t most_closed_reports = 64;
+    static constexpr std::size_t max_closed_reports = 64;
 
     [[nodiscard]] SetupResult<void> add_ring(const endpoint::Endpoint& endpoint, const LinkRates& rates);
     [[nodiscard]] sim::Moment now() const { return parts_.clock.at(parts_.links.now()); }
@@ -80,7 +82,7 @@ private:
 
     const Parts parts_;
     std::unique_ptr<ring::RingSources> rings_;  // created with the first ring that is read
-    std::map<link::EndpointId, Place> places_;
+    std::map<link::EndpointId, EndpointState> states_;
     std::map<LinkId, std::string> open_;  // the links on which the vehicles stream, with their names
     std::vector<LinkReport> closed_;
     std::optional<link::EndpointId> inlet_;

@@ -20,7 +20,8 @@ namespace mavloom::simserve {
 // The rates and the limit of the telemetry that all vehicles send on one link.
 struct LinkRates {
     std::optional<sim::Profile> profile;  // empty: the usual profile of each vehicle's autopilot
-    std::uint32_t max_bytes_s = 0;        // of telemetry; 0: no limit
+    std::uint32_t max_bytes_s = 0;        // of telemetry, in a second of the flight; 0: no limit
+    std::uint32_t line_bytes_s = 0;       // what a serial line carries; 0: another link
     std::vector<sim::MessageRate> rates{};
 };
 

@@ -10,6 +10,7 @@
 #include "mavloom/base/name.hpp"
 #include "mavloom/base/shown.hpp"
 #include "mavloom/base/suggest.hpp"
+#include "mavloom/config/keys.hpp"
 #include "mavloom/endpoint/grammar.hpp"
 #include "simserve/values.hpp"
 
@@ -69,10 +70,7 @@ SetupResult<void> set_profile(Scenario& scenario, Text text) {
 }
 
 SetupResult<void> set_metrics(Scenario& scenario, Text text) {
-    const auto address = endpoint::parse_host_port(text, {});
-    if (!address) return endpoint::usage(fmt::format("{} is not HOST:PORT, as in 127.0.0.1:9090", in_quotes(text)));
-    scenario.metrics = *address;
-    return {};
+    return put(endpoint::parse_server_address(text), scenario.metrics);
 }
 
 SetupResult<void> set_capacity(Scenario& scenario, Text text) {
@@ -94,6 +92,12 @@ constexpr std::array<Key<Scenario>, 9> all_sim_keys{{
     {"metrics", "", set_metrics},
 }};
 
+constexpr std::array<Key<Scenario>, 3> all_web_keys{{
+    {"listen", "", [](Scenario& s, Text t) { return config::set_web_listen(s.web, t); }},
+    {"origin", "", [](Scenario& s, Text t) { return config::set_web_origins(s.web, t); }},
+    {"host", "", [](Scenario& s, Text t) { return config::set_web_hosts(s.web, t); }},
+}};
+
 SetupResult<void> set_system(ScenarioVehicle& vehicle, Text text) {
     const auto system = parse_integer(text, 1, 254);
     if (!system)
@@ -107,7 +111,7 @@ SetupResult<void> set_ready_after(ScenarioVehicle& vehicle, Text text) {
     return put(endpoint::parse_duration(text), vehicle.options.ready_after);
 }
 
-constexpr std::size_t most_traffic = 64, most_logs = 32;
+constexpr std::size_t max_traffic = 64, max_logs = 32;
 
 constexpr std::array<Key<ScenarioVehicle>, 14> all_vehicle_keys{{
     {"kind", "quad", set_kind},
@@ -121,9 +125,8 @@ constexpr std::array<Key<ScenarioVehicle>, 14> all_vehicle_keys{{
     {"battery", "capacity:5000,cells:4,minutes:20,start:100",
      [](ScenarioVehicle& v, Text t) { return put(parse_battery(t), v.options.battery); }},
     {"gimbal", "false", [](ScenarioVehicle& v, Text t) { return put(parse_bool(t), v.options.has_gimbal); }},
-    {"traffic", "0",
-     [](ScenarioVehicle& v, Text t) { return put(parse_integer(t, 0, most_traffic), v.options.traffic); }},
-    {"logs", "2", [](ScenarioVehicle& v, Text t) { return put(parse_integer(t, 0, most_logs), v.options.logs); }},
+    {"traffic", "0", [](ScenarioVehicle& v, Text t) { return put(parse_integer(t, 0, max_traffic), v.options.traffic); }},
+    {"logs", "2", [](ScenarioVehicle& v, Text t) { return put(parse_integer(t, 0, max_logs), v.options.logs); }},
     {"noise", "true", [](ScenarioVehicle& v, Text t) { return put(parse_bool(t), v.options.has_noise); }},
     {"ready_after", "2.5s", set_ready_after},
     {"parameters", "", [](ScenarioVehicle& v, Text t) { return put(parse_pairs(t), v.parameters); }},
@@ -132,6 +135,7 @@ constexpr std::array<Key<ScenarioVehicle>, 14> all_vehicle_keys{{
 }  // namespace
 
 std::span<const Key<Scenario>> sim_keys() noexcept { return all_sim_keys; }
+std::span<const Key<Scenario>> web_keys() noexcept { return all_web_keys; }
 std::span<const Key<ScenarioVehicle>> vehicle_keys() noexcept { return all_vehicle_keys; }
 
 SetupResult<void> add_rate(std::vector<sim::MessageRate>& rates, std::string_view message, std::string_view hz) {

@@ -16,10 +16,11 @@ struct Key {
     SetupResult<void> (*set)(Target&, std::string_view);
 };
 
-inline constexpr std::string_view sim_section = "sim", vehicle_section = "vehicle", streams_section = "streams",
-                                  endpoint_section = "endpoint";
+inline constexpr std::string_view sim_section = "sim", web_section = "web", vehicle_section = "vehicle",
+                                  streams_section = "streams", endpoint_section = "endpoint";
 
 [[nodiscard]] std::span<const Key<Scenario>> sim_keys() noexcept;
+[[nodiscard]] std::span<const Key<Scenario>> web_keys() noexcept;
 [[nodiscard]] std::span<const Key<ScenarioVehicle>> vehicle_keys() noexcept;
 
 // Adds a rate of [streams] or of an endpoint's `streams`. A message that vehicles do not stream is an error.

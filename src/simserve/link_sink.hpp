@@ -9,6 +9,7 @@
 #include "mavloom/link/links.hpp"
 #include "mavloom/sim/sink.hpp"
 #include "simserve/shared_memory.hpp"
+#include "simserve/slow_lines.hpp"
 
 namespace mavloom::simserve {
 
@@ -19,17 +20,26 @@ public:
     void send(LinkId link, const wire::FrameView& frame) override {
         ++frames_;
         bytes_ += frame.size();
+        lines_.note_sent(link, frame.size(), links_.now());
         if (link == shared_.ring_link()) return shared_.write(frame);
         links_.send(link, frame);
     }
-    [[nodiscard]] std::size_t queued_bytes(LinkId link) const override { return links_.queued_bytes(link); }
+    [[nodiscard]] bool has_room(LinkId link) const override {
+        return links_.queued_bytes(link) < bulk_bytes && lines_.has_room(link, links_.now());
+    }
+    // The links that are serial lines.
+    [[nodiscard]] SlowLines& lines() noexcept { return lines_; }
 
     [[nodiscard]] std::uint64_t frames() const noexcept { return frames_; }
     [[nodiscard]] std::uint64_t bytes() const noexcept { return bytes_; }
 
 private:
+    // Bulk transfers pause while a link's queue holds this much.
+    static constexpr std::size_t bulk_bytes = 4096;
+
     link::Links& links_;
     SharedMemory& shared_;
+    SlowLines lines_;
     std::uint64_t frames_ = 0, bytes_ = 0;
 };
 

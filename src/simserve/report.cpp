@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/simserve/report.hpp"
+#include "mavloom/base/durations.hpp"
 
 #include <fmt/format.h>
 
@@ -17,10 +18,7 @@ namespace {
 
 using control::append_line;
 using control::MetricsText;
-using control::seconds;
 using link::NamedCount;
-
-double milliseconds(Nanoseconds time) { return std::chrono::duration<double, std::milli>(time).count(); }
 
 std::string_view landed_name(sim::LandedState state) {
     switch (state) {
@@ -35,6 +33,9 @@ std::string_view landed_name(sim::LandedState state) {
 
 // Rounds to so many decimals, so that lines stay readable.
 double rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
+
+// 359.999 is 0 when it is rounded.
+double rounded_heading(double degrees) { return std::fmod(rounded(degrees, 1e2), 360); }
 
 void append_vehicle(std::string& text, const sim::VehicleStatus& s) {
     append_line(text, {{"kind", "vehicle"},
@@ -55,7 +56,7 @@ void append_vehicle(std::string& text, const sim::VehicleStatus& s) {
                        {"vd_m_s", rounded(s.down_m_s, 1e3)},
                        {"roll_deg", rounded(s.roll_deg, 1e2)},
                        {"pitch_deg", rounded(s.pitch_deg, 1e2)},
-                       {"heading_deg", rounded(s.heading_deg, 1e2)},
+                       {"heading_deg", rounded_heading(s.heading_deg)},
                        {"battery_percent", rounded(s.battery_percent, 1e1)},
                        {"battery_v", rounded(s.battery_volts, 1e3)},
                        {"mission_items", s.mission_items},
@@ -71,10 +72,10 @@ std::vector<sim::VehicleStatus> statuses_of(const std::vector<sim::Vehicle*>& ve
 }
 
 std::vector<NamedCount> counts_of(const SimulatorTotals& totals) {
-    return {{"frames_sent", totals.frames_sent},
-            {"bytes_sent", totals.bytes_sent},
-            {"gaps", totals.gaps},
-            {"frames_received", totals.frames_received}};
+    return {{"frames_sent", totals.frames_sent, "frames that the vehicles sent"},
+            {"bytes_sent", totals.bytes_sent, "bytes of these frames"},
+            {"gaps", totals.gaps, "frames that a full queue or the kernel dropped: gaps for the receiver"},
+            {"frames_received", totals.frames_received, "frames that arrived for the vehicles"}};
 }
 
 // A copy of a simulator's counters, taken between two turns.
@@ -86,7 +87,7 @@ struct Snapshot : link::Snapshot {
 };
 
 Snapshot snapshot_of(Simulator& simulator) {
-    simulator.links().refresh_kernel_drops();
+    simulator.links().refresh_counters();
     Snapshot s{link::snapshot_of(simulator.links())};
     s.uptime = simulator.uptime();
     s.speed = simulator.options().speed;

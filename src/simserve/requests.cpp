@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -88,6 +89,16 @@ Report take_off(Simulator& simulator, const Json& request) {
         order(simulator, request, [height = *altitude](sim::Vehicle& vehicle) { return vehicle.take_off(height); }));
 }
 
+Report go_to(Simulator& simulator, const Json& request) {
+    const auto at = [&](const char* key) { return number_at(request, key).value_or(std::nullopt); };
+    const auto latitude = at("latitude"), longitude = at("longitude");
+    if (!latitude || !longitude || std::abs(*latitude) > 90 || std::abs(*longitude) > 180)
+        return failed("goto needs a latitude, -90 to 90 degrees, and a longitude, -180 to 180 degrees");
+    return state_of(order(simulator, request, [=, altitude = at("altitude")](sim::Vehicle& vehicle) {
+        return vehicle.go_to(*latitude, *longitude, altitude);
+    }));
+}
+
 SetupResult<void> check_mode(const sim::Vehicle& vehicle, std::string_view name) {
     if (vehicle.has_mode(name)) return {};
     const auto names = vehicle.mode_names();
@@ -153,6 +164,7 @@ constexpr std::array commands{
     Command{"arm", arm},
     Command{"disarm", disarm},
     Command{"takeoff", take_off},
+    Command{"goto", go_to},
     Command{"mode", set_mode},
     Command{"param", parameter},
     Command{"links", [](Simulator& s, const Json&) { return report_links(s); }},

@@ -26,7 +26,7 @@ using config::Variables;
 
 namespace {
 
-constexpr std::array sections{sim_section, streams_section};
+constexpr std::array sections{sim_section, web_section, streams_section};
 constexpr std::array lists{vehicle_section, endpoint_section};
 // Keys of [[endpoint]] that only scenarios have.
 constexpr std::string_view profile_key = "profile", streams_key = "streams";
@@ -34,6 +34,7 @@ constexpr std::string_view profile_key = "profile", streams_key = "streams";
 std::vector<Variables::Name> variable_names() {
     std::vector<Variables::Name> names;
     for (const auto& key : sim_keys()) names.push_back({sim_section, key.name});
+    for (const auto& key : web_keys()) names.push_back({web_section, key.name});
     return names;
 }
 
@@ -45,7 +46,10 @@ public:
     SetupResult<Scenario> read() {
         if (auto done = document_.check_tables(sections, lists); !done) return tl::unexpected(std::move(done.error()));
         if (auto done = variables_.check(scenario_.notes); !done) return tl::unexpected(std::move(done.error()));
-        if (auto done = read_sim(); !done) return tl::unexpected(std::move(done.error()));
+        scenario_.ring.full = config::WhenFull::evict;
+        scenario_.ring.mode = 0600;
+        if (auto done = read_section(sim_section, sim_keys()); !done) return tl::unexpected(std::move(done.error()));
+        if (auto done = read_section(web_section, web_keys()); !done) return tl::unexpected(std::move(done.error()));
         if (auto done = read_streams(); !done) return tl::unexpected(std::move(done.error()));
         if (auto done = read_vehicles(); !done) return tl::unexpected(std::move(done.error()));
         for (const Table& table : document_.tables)
@@ -62,15 +66,13 @@ private:
         return document_.check_keys(table, known);
     }
 
-    SetupResult<void> read_sim() {
-        const Table* const table = document_.find(sim_section);
+    SetupResult<void> read_section(std::string_view name, std::span<const Key<Scenario>> keys) {
+        const Table* const table = document_.find(name);
         if (table != nullptr)
-            if (auto done = check_keys(*table, sim_keys()); !done) return done;
-        scenario_.ring.full = config::WhenFull::evict;
-        scenario_.ring.mode = 0600;
-        config::Section section{std::string(sim_section), {}, {}, table == nullptr ? 0 : table->line};
-        for (const auto& key : sim_keys()) {
-            auto setting = read_key(sim_section, key, table, scenario_);
+            if (auto done = check_keys(*table, keys); !done) return done;
+        config::Section section{std::string(name), {}, {}, table == nullptr ? 0 : table->line};
+        for (const auto& key : keys) {
+            auto setting = read_key(name, key, table, scenario_);
             if (!setting) return tl::unexpected(std::move(setting.error()));
             section.settings.push_back(std::move(*setting));
         }
@@ -334,7 +336,7 @@ namespace {
 // Takes what it is given, for a vehicle that only shows which parameters it has.
 class NoSink final : public sim::Sink {
     void send(LinkId, const wire::FrameView&) override {}
-    [[nodiscard]] std::size_t queued_bytes(LinkId) const override { return 0; }
+    [[nodiscard]] bool has_room(LinkId) const override { return true; }
 };
 
 std::string unknown_parameter(const sim::Vehicle& vehicle, std::string_view name) {

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "simserve/shared_memory.hpp"
 
-#include <fmt/format.h>
-
 #include <utility>
 
 namespace mavloom::simserve {
-
-static constexpr unsigned page_mode = 0600;
 
 SetupResult<void> SharedMemory::open_ring(const config::RingConfig& config, std::function<void()> ready) {
     auto opened = ring::RingTap::open(config.name, {config.capacity_bytes, config.full, config.mode}, std::move(ready));
@@ -20,10 +16,9 @@ SetupResult<void> SharedMemory::open_ring(const config::RingConfig& config, std:
 }
 
 SetupResult<void> SharedMemory::open_page(const std::string& name) {
-    auto page = ring::RingPage::create(name, page_mode);
+    auto page = ring::OwnPage::open(name);
     if (!page) return tl::unexpected(std::move(page.error()));
     page_.emplace(std::move(*page));
-    page_name_ = name;
     return {};
 }
 
@@ -34,12 +29,12 @@ void SharedMemory::close() noexcept {
 
 void SharedMemory::on_link_up(LinkId link, std::string_view name) {
     if (ring_) ring_->on_link_up(link, name);
-    if (page_) page_->name_link(link, name);
+    if (page_) page_->on_link_up(link, name);
 }
 
 void SharedMemory::on_link_down(LinkId link) {
     if (ring_) ring_->on_link_down(link);
-    if (page_) page_->link_removed(link);
+    if (page_) page_->on_link_down(link);
 }
 
 void SharedMemory::refresh_page(const link::Links& links, std::optional<link::EndpointId> inlet,
@@ -48,15 +43,12 @@ void SharedMemory::refresh_page(const link::Links& links, std::optional<link::En
         ring_->note_turn(0, MonoTime{});
         ring_->refresh_page(links, inlet, counts);
     }
-    if (page_) page_->refresh(links.links(), links.endpoints(), inlet, {}, counts);
+    if (page_) page_->refresh(links, inlet, counts);
 }
 
-std::vector<std::string> SharedMemory::look_after(const link::Links& links) {
-    if (ring_) return ring_->look_after(links);
-    if (!page_ || !page_->is_removed()) return {};
-    if (auto opened = open_page(page_name_); !opened) return {std::move(opened.error().text)};
-    for (const auto& link : links.links()) page_->name_link(link.id, link.name);
-    return {fmt::format("{}: the counter page was removed; there is a new one", page_name_)};
+std::vector<std::string> SharedMemory::maintain(const link::Links& links) {
+    if (ring_) return ring_->maintain(links);
+    return page_ ? page_->maintain(links) : std::vector<std::string>{};
 }
 
 }  // namespace mavloom::simserve

@@ -13,14 +13,14 @@
 
 #include "mavloom/config/config.hpp"
 #include "mavloom/link/links.hpp"
-#include "mavloom/ring/page.hpp"
+#include "mavloom/ring/own_page.hpp"
 #include "mavloom/ring/tap.hpp"
 
 namespace mavloom::simserve {
 
 class SharedMemory {
 public:
-    // A thread of the ring calls `ready` when `look_after` has something to do.
+    // A thread of the ring calls `ready` when `maintain` has something to do.
     [[nodiscard]] SetupResult<void> open_ring(const config::RingConfig& config, std::function<void()> ready);
     [[nodiscard]] SetupResult<void> open_page(const std::string& name);
     void close() noexcept;  // the counts stay
@@ -42,12 +42,12 @@ public:
     void refresh_page(const link::Links& links, std::optional<link::EndpointId> inlet,
                       std::span<const ring::OwnCount> counts);
     // Call about once a second. Creates a removed ring or page again. Returns notices for the log.
-    [[nodiscard]] std::vector<std::string> look_after(const link::Links& links);
+    [[nodiscard]] std::vector<std::string> maintain(const link::Links& links);
 
 private:
     std::unique_ptr<ring::RingTap> ring_;
-    std::optional<ring::RingPage> page_;  // without a ring
-    std::string ring_name_, page_name_;
+    std::optional<ring::OwnPage> page_;  // without a ring
+    std::string ring_name_;
     LinkId ring_link_{};
     std::uint64_t frames_ = 0, bytes_ = 0;
 };

@@ -17,7 +17,7 @@ namespace mavloom::simserve {
 
 using namespace std::chrono_literals;
 
-static constexpr Nanoseconds look_interval = 1s, page_interval = 250ms;
+static constexpr Nanoseconds maintain_interval = 1s, page_interval = 250ms;
 
 Simulator::Simulator(const dialect::Dialect& dialect, const SimulatorOptions& options, Notice notice,
                      std::unique_ptr<link::Links> links)
@@ -31,7 +31,7 @@ Simulator::Simulator(const dialect::Dialect& dialect, const SimulatorOptions& op
       sink_(std::make_unique<LinkSink>(*links_, *shared_)),
       fleet_(std::make_unique<Fleet>(*sink_)),
       connections_(std::make_unique<Connections>(
-          Connections::Parts{dialect_, *links_, *clock_, *shared_, *fleet_, options_, notice_})) {}
+          Connections::Parts{dialect_, *links_, *clock_, *shared_, sink_->lines(), *fleet_, options_, notice_})) {}
 
 Simulator::~Simulator() { shared_->close(); }  // stops the thread that may call post()
 
@@ -43,7 +43,7 @@ SetupResult<std::unique_ptr<Simulator>> Simulator::create(const dialect::Dialect
 }
 
 SetupResult<void> Simulator::open_ring(const config::RingConfig& config) {
-    auto opened = shared_->open_ring(config, [this] { post([this] { look_after(mono_now()); }); });
+    auto opened = shared_->open_ring(config, [this] { post([this] { maintain(mono_now()); }); });
     if (opened) links_->count_from(shared_->ring_link());
     return opened;
 }
@@ -66,7 +66,11 @@ SetupResult<void> Simulator::add(const sim::VehicleOptions& options, Parameters 
 
 SetupResult<void> Simulator::add(const SimEndpoint& endpoint) { return connections_->add(endpoint); }
 
-bool Simulator::remove(std::string_view label) { return connections_->remove(label); }
+// First, what the vehicles have queued leaves.
+bool Simulator::remove(std::string_view label) {
+    links_->turn(*connections_, MonoTime{});
+    return connections_->remove(label);
+}
 
 // ---- turns ----------------------------------------------------------------------------------------------------------
 
@@ -75,14 +79,14 @@ void Simulator::turn(MonoTime deadline) {
         clock_->start(mono_now());
         connections_->open_ring_link();
     }
-    deadline = std::min({deadline, clock_->when(fleet_->next_due()), connections_->rings_due(), look_due_});
+    deadline = std::min({deadline, clock_->when(fleet_->next_due()), connections_->rings_due(), maintain_due_});
     links_->turn(*connections_, posted_->empty() ? deadline : MonoTime{});
     connections_->play_rings();
     const MonoTime now = mono_now();
     fleet_->advance(clock_->at(now));
     if (!posted_->empty()) posted_->run_one();  // one a turn, because reports take long and frames go first
     if (now >= page_due_) refresh_page(now);
-    if (now >= look_due_) look_after(now);
+    if (now >= maintain_due_) maintain(now);
 }
 
 void Simulator::finish(Nanoseconds limit) {
@@ -92,10 +96,10 @@ void Simulator::finish(Nanoseconds limit) {
     shared_->close();
 }
 
-void Simulator::look_after(MonoTime now) {
-    look_due_ = now + look_interval;
+void Simulator::maintain(MonoTime now) {
+    maintain_due_ = now + maintain_interval;
     connections_->refill_lines();
-    for (const auto& text : shared_->look_after(*links_)) notice_(config::LogLevel::warning, text);
+    for (const auto& text : shared_->maintain(*links_)) notice_(config::LogLevel::warning, text);
 }
 
 void Simulator::refresh_page(MonoTime now) {

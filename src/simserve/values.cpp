@@ -11,6 +11,7 @@
 
 #include "mavloom/base/shown.hpp"
 #include "mavloom/base/suggest.hpp"
+#include "mavloom/base/text.hpp"
 #include "mavloom/dialect/terms.hpp"
 
 namespace mavloom::simserve {
@@ -22,17 +23,12 @@ tl::unexpected<SetupError> usage(std::string text) { return setup_error(SetupCod
 constexpr Range latitude_range{-90, 90}, longitude_range{-180, 180}, altitude_range{-500, 20'000},
     heading_range{0, 360}, speed_range{0, 60};
 
-std::string_view without_blanks(std::string_view text) {
-    const auto first = std::min(text.find_first_not_of(' '), text.size());
-    return text.substr(first, text.find_last_not_of(' ') + 1 - first);
-}
-
 SetupResult<std::vector<double>> parse_list(std::string_view text, std::span<const Range> ranges,
                                             std::span<const std::string_view> names) {
     std::vector<double> values;
     const auto add = [&](std::string_view part) -> SetupResult<void> {
         if (values.size() == ranges.size()) return usage(fmt::format("{} is one value too many", in_quotes(part)));
-        const auto value = parse_number(without_blanks(part), ranges[values.size()]);
+        const auto value = parse_number(trimmed(part), ranges[values.size()]);
         if (!value) return tl::unexpected(SetupError(value.error()).within(names[values.size()]));
         values.push_back(*value);
         return {};

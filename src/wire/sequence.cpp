@@ -2,6 +2,7 @@
 #include "mavloom/wire/sequence.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "mavloom/base/bytes.hpp"
@@ -57,7 +58,9 @@ std::size_t SequenceTracker::page_number(Source source) noexcept {
 }
 
 std::size_t SequenceTracker::place_of(Source source) const noexcept {
-    return page_of_[page_number(source)] * page_size + source.component.value % page_size;
+    const std::size_t place = page_of_[page_number(source)] * page_size + source.component.value % page_size;
+    assert(place < index_of_.size());
+    return place;
 }
 
 std::size_t SequenceTracker::find_or_add(Source source) {
@@ -71,6 +74,7 @@ std::size_t SequenceTracker::add(Source source) {
         page = static_cast<std::uint16_t>(index_of_.size() / page_size);
         index_of_.resize(index_of_.size() + page_size);
     }
+    assert(index_of_[place_of(source)] == 0 && stats_.size() == states_.size());
     stats_.push_back({source});
     states_.emplace_back();
     index_of_[place_of(source)] = static_cast<std::uint16_t>(stats_.size());
@@ -86,6 +90,7 @@ const SequenceTracker::Update& SequenceTracker::changed(const Update& update) no
         ++untracked_;
         return changed({.verdict = Verdict::untracked});
     }
+    assert(index <= stats_.size() && stats_[index - 1].source == frame.source());
     auto& stats = stats_[index - 1];
     auto& state = states_[index - 1];
     const Update* result = &no_loss;
@@ -166,6 +171,7 @@ SequenceTracker::ClockVerdict SequenceTracker::watch_clock(State& state, const F
 SequenceTracker::ClockVerdict SequenceTracker::read_clock(State& state, MessageId id, std::uint32_t boot_ms) noexcept {
     if (boot_ms == 0) return ClockVerdict::unknown;
     Clock* clock = state.clocks.data();
+    assert(state.clock_count <= state.clocks.size());
     Clock* const end = clock + state.clock_count;
     while (clock != end && clock->id != id.value) ++clock;
     if (clock == end) {

@@ -13,6 +13,8 @@
 #include <optional>
 #include <string_view>
 
+#include "mavloom/base/text.hpp"
+
 namespace mavloom::wire {
 
 namespace {
@@ -45,9 +47,7 @@ std::array<std::uint8_t, hash_length> hash_of(const SigningKey& key, ByteView up
 
 // Parses one word of hexadecimal digits with optional white space around it.
 std::optional<std::array<std::uint8_t, SigningKey::length>> parse_hex(std::string_view text) {
-    constexpr std::string_view space = " \t\r\n\v\f";
-    text.remove_prefix(std::min(text.find_first_not_of(space), text.size()));
-    text = text.substr(0, text.find_last_not_of(space) + 1);
+    text = trimmed(text);
     std::array<std::uint8_t, SigningKey::length> key{};
     std::size_t written = 0;
     const char* end = nullptr;

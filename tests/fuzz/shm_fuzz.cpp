@@ -23,7 +23,7 @@ using namespace mavloom;
 using namespace mavloom::shm;
 
 constexpr std::uint32_t later_flag = 0x80000000;
-constexpr std::size_t most_reads = 5000;
+constexpr std::size_t max_reads = 5000;
 
 struct Patch {
     std::uint32_t offset;
@@ -97,7 +97,7 @@ void read_all(Victim& victim, const std::vector<Patch>& patches, const ReaderOpt
         while (patch != patches.end() && (patch->offset & later_flag) == 0) ++patch;
         if (patch != patches.end()) victim.apply(*patch++);
     };
-    for (std::size_t i = 0; i < most_reads && read(*reader, i, look); ++i) {}
+    for (std::size_t i = 0; i < max_reads && read(*reader, i, look); ++i) {}
     volatile std::uint64_t sink = sum;
     static_cast<void>(sink);
 }

@@ -43,10 +43,10 @@ public:
         ++frames;
         if (link == LinkId{1} && frame.id() == MessageId{0} && frame.component() == ComponentId{1}) ++heartbeats;
     }
-    [[nodiscard]] std::size_t queued_bytes(LinkId link) const override { return queued.at(link.value % queued.size()); }
+    [[nodiscard]] bool has_room(LinkId link) const override { return !full.at(link.value % full.size()); }
 
     std::uint64_t frames = 0, heartbeats = 0;
-    std::array<std::size_t, 4> queued{};
+    std::array<bool, 4> full{};
 };
 
 sim::VehicleOptions options_from(std::uint8_t bits) {
@@ -81,7 +81,7 @@ public:
             case 1: return pass(std::chrono::milliseconds{20 * in.byte()});
             case 2: return open_link(2u + (kind >> 4 & 1u));
             case 3: return close_link(2u + (kind >> 4 & 1u));
-            case 4: sink_.queued[kind >> 4 & 3u] = in.byte() * std::size_t{64}; break;
+            case 4: sink_.full[kind >> 4 & 3u] = in.byte() >= 64; break;
             case 5: return receive(MessageId{in.word()}, in);
             default: return receive(MessageId{known_ids[in.byte() % std::size(known_ids)]}, in);
         }
@@ -101,7 +101,7 @@ public:
     // A vehicle that is shut down is silent for good; one that reboots, for some seconds.
     void expect_telemetry() {
         if (vehicle_.next_due() == sim::FlightTime::max()) return;
-        sink_.queued = {};
+        sink_.full = {};
         pass(std::chrono::seconds{4});
         if (vehicle_.next_due() == sim::FlightTime::max()) return;
         const std::uint64_t before = sink_.heartbeats;

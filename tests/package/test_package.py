@@ -157,13 +157,15 @@ def test_every_installed_header_needs_only_installed_ones(installed, tmp_path):
 
 @pytest.mark.long
 @pytest.mark.timeout(1800)
-def test_pip_install_from_the_checkout(tmp_path):
+def test_pip_install_from_the_source_distribution(tmp_path):
     """In an environment of its own, with the build tools that pyproject.toml asks for;
-    then the package and its stubs are used from there."""
+    then the package, its stubs and the program are used from there."""
+    code = "import sys, scikit_build_core.build as backend; backend.build_sdist(sys.argv[1])"
+    subprocess.run([sys.executable, "-c", code, tmp_path], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
     environment = tmp_path / "venv"
     call(sys.executable, "-m", "venv", environment)
     python = environment / "bin" / "python"
-    call(python, "-m", "pip", "install", "--no-input", "--disable-pip-version-check", ROOT)
+    call(python, "-m", "pip", "install", "--no-input", "--disable-pip-version-check", *tmp_path.glob("*.tar.gz"))
     flight = ROOT / "tests" / "data" / "px4_gcs_flight.tlog"
     code = (f"import mavloom\nprint(sum(1 for _ in mavloom.read({str(flight)!r})), "
             f"len(mavloom.columns({str(flight)!r}, 'ATTITUDE')))\n"
@@ -174,3 +176,4 @@ def test_pip_install_from_the_checkout(tmp_path):
     done = subprocess.run([python, "-c", code], cwd=tmp_path, capture_output=True, text=True,
                           env={**os.environ, "PYTHONPATH": ""})
     assert (done.returncode, done.stdout) == (0, "40087 5312\n"), done.stderr
+    assert call(environment / "bin" / "mavloom", "--version").startswith("mavloom ")

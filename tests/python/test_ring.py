@@ -1468,7 +1468,7 @@ def test_row_19_records_come_in_order_while_they_are_written(writer, ring, lossl
 
 
 def test_row_3_21_the_waiter_wakes_the_loop_and_no_timer_does(writer, ring, monkeypatch):
-    monkeypatch.setattr("mavloom._async.LOOK_FOR_RING_S", 1e6)
+    monkeypatch.setattr("mavloom._async.RING_POLL_S", 1e6)
 
     async def run():
         reader = mavloom.RingReader(ring)

@@ -315,6 +315,17 @@ def test_a_writer_whose_file_went_at_the_end_keeps_what_it_buffers(tmp_path):
     assert log.records == 1 and [m.time_boot_ms for m in mavloom.read(path)] == [7]
 
 
+def test_a_writer_whose_file_went_after_the_last_flush_reports_it(tmp_path):
+    path = tmp_path / "x.tlog"
+    log = mavloom.write(path)
+    log.write(mavloom.Dialect().encode("ATTITUDE", time_boot_ms=7))
+    log.flush()
+    path.unlink()
+    with pytest.warns(RuntimeWarning, match="was removed or replaced before it was complete"):
+        log.close()
+    assert not path.exists()
+
+
 def test_times_before_1970_are_refused(flight, tmp_path):
     """A tlog has no sign: -1 was stored as 0."""
     with mavloom.write(tmp_path / "x.tlog") as out:

@@ -15,7 +15,7 @@ import struct
 import threading
 import time
 
-MOST_BYTES = 65536
+MAX_BYTES = 65536
 
 
 @dataclasses.dataclass(frozen=True)
@@ -152,7 +152,7 @@ class UdpImpairer(Impairer):
     def _take(self, sock, direction, out):
         for _ in range(256):
             try:
-                datagram, source = sock.recvfrom(MOST_BYTES)
+                datagram, source = sock.recvfrom(MAX_BYTES)
             except BlockingIOError:
                 return
             except ConnectionError:  # ICMP: nobody listened for an earlier one
@@ -180,9 +180,9 @@ class TcpImpairer(Impairer):
     """Accepts at `port` of 127.0.0.1 and connects each caller with `target`.
     Bytes come late and cut at random places, never out of order."""
 
-    def __init__(self, target, rng, delay=0.0, jitter=0.0, most_bytes=1400):
+    def __init__(self, target, rng, delay=0.0, jitter=0.0, max_bytes=1400):
         super().__init__()
-        self.target, self.delay, self.jitter, self.most_bytes = target, delay, jitter, most_bytes
+        self.target, self.delay, self.jitter, self.max_bytes = target, delay, jitter, max_bytes
         self._random = random.Random(rng.getrandbits(64))
         self._listener = socket.create_server(("127.0.0.1", 0))
         self.port = self._listener.getsockname()[1]
@@ -211,7 +211,7 @@ class TcpImpairer(Impairer):
 
     def _take(self, pair, side):
         try:
-            data = pair["ends"][side].recv(self._random.randint(1, self.most_bytes))
+            data = pair["ends"][side].recv(self._random.randint(1, self.max_bytes))
         except BlockingIOError:
             return
         except OSError:

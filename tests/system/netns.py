@@ -36,15 +36,15 @@ class Machine:
         ip("-n", self.name, "link", "set", self.interface, "up")
         ip("-n", self.name, "route", "add", "default", "dev", self.interface)
 
-    def socket(self, family=socket.AF_INET, timeout=60):
-        """A UDP socket of this machine: a socket stays in the namespace of the thread that made it."""
+    def socket(self, family=socket.AF_INET, timeout=60, kind=socket.SOCK_DGRAM, protocol=0):
+        """A socket of this machine: a socket stays in the namespace of the thread that made it."""
         made = []
 
         def make():
             with open(f"/run/netns/{self.name}") as namespace:
                 if ctypes.CDLL(None, use_errno=True).setns(namespace.fileno(), CLONE_NEWNET) != 0:
                     raise OSError(ctypes.get_errno(), "setns")
-            made.append(socket.socket(family, socket.SOCK_DGRAM))
+            made.append(socket.socket(family, kind, protocol))
         thread = threading.Thread(target=make)
         thread.start()
         thread.join()

@@ -296,7 +296,7 @@ class Router:
 
 # One endpoint with several links, and one endpoint for each link.
 SHARED = ("peers", "clients")
-SINGLE = ("udpin", "udpout", "tcpin", "tcpout", "serial")
+SINGLE = ("udpin", "udpout", "tcpin", "tcpout", "wsin", "wsout", "serial")
 LETTERS = "ABCDEFGH"
 
 
@@ -332,6 +332,7 @@ class Net:
         return [f"tcpin://127.0.0.1:{port}"]
 
     def _single(self, kind, index):
+        import websocket_end  # which imports TcpEnd
         label = LETTERS[index]
         query = f"name={label}&{self.options[index + 1]}" if index + 1 in self.options else f"name={label}"
         if kind == "serial":
@@ -345,20 +346,21 @@ class Net:
             near = udp_port()
             self.ends.append(UdpEnd(("127.0.0.1", near), label))
             return f"udpout://127.0.0.1:{self.ends[-1].port}?bind=127.0.0.1:{near}&{query}"
-        if kind == "tcpin":
+        if kind in ("tcpin", "wsin"):
             port = tcp_port()
-            self._accept.append(lambda: tcp_client(port, label))
+            connect = tcp_client if kind == "tcpin" else websocket_end.client
+            self._accept.append(lambda: connect(port, label))
             self.ends.append(None)
-            return f"tcpin://127.0.0.1:{port}?{query}"
+            return f"{kind}://127.0.0.1:{port}?{query}"
         server = socket.create_server(("127.0.0.1", 0))
         server.settimeout(harness.DEFAULT_TIMEOUT_S)
 
         def accept():
             with server:
-                return TcpEnd(server.accept()[0], label)
+                return TcpEnd(server.accept()[0], label) if kind == "tcpout" else websocket_end.accepted(server, label)
         self._accept.append(accept)
         self.ends.append(None)
-        return f"tcpout://127.0.0.1:{server.getsockname()[1]}?{query}"
+        return f"{kind}://127.0.0.1:{server.getsockname()[1]}?{query}"
 
     def _join(self, kinds):
         """Waits until every link is up. A UDP peer is none before it has spoken: it does, as system 0, which teaches no

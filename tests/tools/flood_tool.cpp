@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// An attacker for tests/system/route/test_hostile.py: sends heartbeats from invented addresses.
-//   flood_tool HOST PORT RATE SECONDS [IDS] [ADDRESSES]
+// An attacker for tests/system/route/test_hostile.py and bench/hostile.py: sends heartbeats from invented addresses.
+//   flood_tool HOST PORT RATE SECONDS [IDS] [ADDRESSES] [refuse]
 // Every datagram is a HEARTBEAT from another address of HOST's /8 network, RATE a second. IDS is how many system and
-// component ids it uses (default 1). ADDRESSES is how many addresses it uses in turn. Prints how many datagrams it
-// sent. Works on loopback without privileges, because all of 127.0.0.0/8 belongs to this machine. Another network
-// needs `ip route add local 10.0.0.0/8 dev lo`.
+// component ids it uses (default 1). ADDRESSES is how many addresses it uses in turn (default: 16 million). With
+// `refuse`, answers find a closed port. Prints how many datagrams it sent. Works on loopback without privileges,
+// because all of 127.0.0.0/8 belongs to this machine. Another network needs `ip route add local 10.0.0.0/8 dev lo`.
 #include <arpa/inet.h>
 #include <fmt/format.h>
 #include <netinet/in.h>
@@ -42,6 +42,13 @@ public:
         to_.sin_port = htons(port);
         if (inet_pton(AF_INET, host, &to_.sin_addr) != 1) std::exit(2);
         for (std::size_t i = 0; i < batch; ++i) prepare(i);
+    }
+
+    // A connected socket takes datagrams from its far side only, which is not the router: answers are refused.
+    void refuse_answers(int fd) const {
+        sockaddr_in elsewhere = to_;
+        elsewhere.sin_port = htons(9);
+        if (::connect(fd, reinterpret_cast<const sockaddr*>(&elsewhere), sizeof elsewhere) != 0) std::exit(1);
     }
 
     // Sends `count` datagrams, at most a batch; returns how many the kernel took.
@@ -102,7 +109,7 @@ private:
 
 int main(int argc, char** argv) {
     if (argc < 5) {
-        fmt::print(stderr, "usage: flood_tool HOST PORT RATE SECONDS [IDS] [ADDRESSES]\n");
+        fmt::print(stderr, "usage: flood_tool HOST PORT RATE SECONDS [IDS] [ADDRESSES] [refuse]\n");
         return 2;
     }
     const double rate = std::atof(argv[3]), seconds = std::atof(argv[4]);
@@ -110,6 +117,7 @@ int main(int argc, char** argv) {
                 argc > 5 ? static_cast<unsigned>(std::atoi(argv[5])) : 1u,
                 argc > 6 ? static_cast<unsigned>(std::atoi(argv[6])) : 0x00fe0000u);
     const int fd = ::socket(AF_INET, SOCK_DGRAM, 0);
+    if (argc > 7) flood.refuse_answers(fd);
     const auto start = Clock::now();
     std::size_t sent = 0;
     for (;;) {

@@ -5,6 +5,10 @@
 //       -> {"line":{the JSON form}, "text":…, "copied":HEX, "rebuilt":HEX, "verdict":…}
 //   {"name":…, "fields":{…}, "version":1|2, "seq":…, "sys":…, "comp":…, "key":HEX?, "link_id":…, "now":TICKS}
 //       -> {"frame":HEX}
+//   {"cdr":HEX of a frame}
+//       -> {"cdr":HEX}
+//   {"ros2msg":NAME}
+//       -> {"type":…, "text":…}
 // `copied` is the frame made again from its payload as a whole, `rebuilt` the one made field by field from the decoded
 // values. Field values in requests are as in the JSON form, and {"hex":…} for text of any bytes. A refusal is
 // {"error":…}.
@@ -16,6 +20,7 @@
 #include <string>
 
 #include "mavloom/message/builder.hpp"
+#include "mavloom/message/cdr.hpp"
 #include "mavloom/message/format.hpp"
 #include "mavloom/message/view.hpp"
 #include "mavloom/wire/datagram_parser.hpp"
@@ -181,9 +186,25 @@ json encode(const json& request) {
     return {{"frame", written(header, builder, {&signer, {request.at("now").get<std::uint64_t>()}})}};
 }
 
+json to_cdr(const json& request) {
+    const auto bytes = test::hex(request.at("cdr").get<std::string>());
+    const auto frame = wire::FrameView::unchecked(bytes);
+    const message::CdrEncoder encoder(*dialect::default_dialect().find(frame.id()));
+    Bytes out(encoder.max_size());
+    out.resize(encoder.encode(frame.payload(), out));
+    return {{"cdr", to_hex(out)}};
+}
+
+json schema(const json& request) {
+    const auto& definition = *dialect::default_dialect().find(request.at("ros2msg").get<std::string>());
+    return {{"type", message::ros2_type(definition)}, {"text", message::ros2msg(definition)}};
+}
+
 json answer_to(const std::string& line) {
     try {
         const auto request = json::parse(line);
+        if (request.contains("cdr")) return to_cdr(request);
+        if (request.contains("ros2msg")) return schema(request);
         return request.contains("frame") ? decode(request) : encode(request);
     } catch (const std::exception& error) {
         return {{"error", error.what()}};

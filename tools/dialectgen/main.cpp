@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "dialect/core/loader.hpp"
 #include "generate.hpp"
@@ -17,11 +19,12 @@ using namespace mavloom;
 
 constexpr std::string_view usage =
     "usage: mavloom_dialectgen FILE.xml --out DIR --namespace NS [--public DIR] [--part tables|headers] [--stamp FILE] "
-    "[--builtin]\n";
+    "[--builtin] [--lean]\n";
 
 struct Arguments {
     std::string xml, part, stamp;
     std::string public_folder;  // of public definitions, for includes
+    bool is_lean = false;       // tables without what a router does not need
     dialectgen::Options options;
 };
 
@@ -32,6 +35,8 @@ std::optional<Arguments> parse(int argc, char** argv) {
         const bool has_value = i + 1 < argc;
         if (word == "--builtin") {
             arguments.options.is_builtin = true;
+        } else if (word == "--lean") {
+            arguments.is_lean = true;
         } else if (word == "--out" && has_value) {
             arguments.options.out = argv[++i];
         } else if (word == "--namespace" && has_value) {
@@ -61,19 +66,38 @@ SetupResult<void> touch(const std::string& stamp) {
     return {};
 }
 
+// Leaves the messages with their layouts, and the fields that distinguish instances.
+void make_lean(dialect::Records& records) {
+    for (auto& message : records.messages) {
+        std::vector<dialect::Field> instances;
+        for (dialect::Field field : message.fields) {
+            if (!field.instance) continue;
+            field.units = field.invalid = {};
+            field.enumeration = nullptr;
+            instances.push_back(field);
+        }
+        message.fields = dialect::Records::keep(records.fields, std::move(instances));
+    }
+    records.enums.clear();
+}
+
 SetupResult<void> generate(const Arguments& arguments) {
     const auto folder = dialectgen::PublicFolder::read(arguments.public_folder);
     if (!folder) return tl::unexpected(folder.error());
+    const bool is_lean = arguments.is_lean && arguments.part == "tables";
     dialect::Records records;
     auto definitions = dialect::read_with_includes(arguments.xml, folder->files(), records);
     if (!definitions) return tl::unexpected(std::move(definitions.error()));
     if (auto merged = dialect::merge(std::move(*definitions), records); !merged) return merged;
+    if (is_lean) make_lean(records);
     const auto name = std::filesystem::path(arguments.xml).stem().string();
     const dialect::Dialect loaded(name, records.messages, records.enums);
     if (arguments.part != "headers")
         if (auto written = dialectgen::write_tables(loaded, arguments.options); !written) return written;
     if (arguments.part != "headers" && arguments.options.is_builtin)
-        if (auto written = dialectgen::write_files(*folder, arguments.options); !written) return written;
+        if (auto written = dialectgen::write_files(is_lean ? dialectgen::PublicFolder() : *folder, arguments.options);
+            !written)
+            return written;
     if (arguments.part != "tables")
         if (auto written = dialectgen::write_headers(loaded, arguments.options); !written) return written;
     return touch(arguments.stamp);

@@ -36,10 +36,10 @@ SetupResult<void> write_files(const PublicFolder& folder, const Options& options
         options.out / "tables" / "files.cpp",
         fmt::format("// Made by mavloom_dialectgen; do not edit.\n#include \"dialect/core/loader.hpp\"\n\n"
                     "namespace mavloom::dialect {{\n\n"
-                    "static constexpr PublicFile files[] = {{\n{}}};\n\n"
-                    "std::span<const PublicFile> builtin_files() noexcept {{ return files; }}\n\n"
+                    "static constexpr PublicFile files[] = {{\n{}    {{}}}};\n\n"
+                    "std::span<const PublicFile> builtin_files() noexcept {{ return {{files, {}}}; }}\n\n"
                     "}}  // namespace mavloom::dialect\n",
-                    records));
+                    records, folder.files().size()));
 }
 
 }  // namespace mavloom::dialectgen

@@ -164,8 +164,8 @@ struct RingOptions {
 };
 
 constexpr auto longest_wait = std::chrono::seconds(10);  // for the other side
-constexpr auto look_at_end = std::chrono::milliseconds(100);
-constexpr std::uint64_t look_at_signals = 1u << 16;  // check after this many records
+constexpr auto end_poll_interval = std::chrono::milliseconds(100);
+constexpr std::uint64_t signal_poll_records = 1u << 16;  // check after this many records
 
 // Reads up to record `end`, which a signal may lower. Each payload must begin with the record's number. Returns false
 // if one does not, or if no record arrives in time.
@@ -178,7 +178,7 @@ bool read_up_to(shm::RingReader& reader, std::uint64_t& next, const std::atomic<
     MonoTime limit = mono_now() + longest_wait;
     while (good && next < end) {
         if (!reader.try_visit(end - next, look)) {
-            const auto record = reader.read(mono_now() + look_at_end);
+            const auto record = reader.read(mono_now() + end_poll_interval);
             if (!record && mono_now() >= limit) return false;
             if (!record) continue;
             look(*record);
@@ -205,7 +205,7 @@ bool hand_over(shm::RingWriter& writer, std::vector<shm::RingReader>& readers, c
             });
         Bytes payload(options.bytes);
         for (; first < end && good; ++first) {
-            if (first % look_at_signals == 0 && Signals::received()) {
+            if (first % signal_poll_records == 0 && Signals::received()) {
                 end = first;
                 break;
             }

@@ -35,7 +35,7 @@ public:
         ++frames;
         bytes += frame.size();
     }
-    [[nodiscard]] std::size_t queued_bytes(LinkId) const override { return 0; }
+    [[nodiscard]] bool has_room(LinkId) const override { return true; }
 
     std::uint64_t frames = 0, bytes = 0;
 };
@@ -56,7 +56,7 @@ public:
         if (!is_first) gaps += static_cast<std::uint8_t>(frame.sequence() - last->second) == 1 ? 0 : 1;
         last->second = frame.sequence();
     }
-    [[nodiscard]] std::size_t queued_bytes(LinkId) const override { return 0; }
+    [[nodiscard]] bool has_room(LinkId) const override { return true; }
 
     std::uint64_t bad = 0, gaps = 0;
 

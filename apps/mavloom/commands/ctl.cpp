@@ -8,13 +8,17 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "commands/ctl_wait.hpp"
 #include "mavloom/base/counted.hpp"
 #include "mavloom/base/shown.hpp"
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/control/control.hpp"
+#include "mavloom/endpoint/endpoint.hpp"
 #include "mavloom/link/links.hpp"
 #include "mavloom/shm/counter_page.hpp"
+#include "mavloom/shm/ring_info.hpp"
 #include "output.hpp"
+#include "page/page_hop.hpp"
 
 namespace mavloom::app {
 
@@ -42,6 +46,7 @@ struct CtlOptions {
     std::string name, action;
     std::vector<std::string> arguments;
     std::string system;  // of the vehicle; empty: all
+    std::string limit;   // of `wait`
     bool force = false;
 };
 
@@ -52,6 +57,7 @@ struct Action {
     std::size_t fewest = 0;       // of the arguments
     std::string_view missing{};   // the error if there are fewer
     bool is_of_vehicles = false;  // only a simulator has it
+    std::string_view mode{};      // it is short for this mode
 };
 
 const std::vector<Action>& actions() {
@@ -67,6 +73,14 @@ const std::vector<Action>& actions() {
         {"disarm", {}, 0, {}, true},
         {"takeoff", {"altitude"}, 1, "takeoff takes the altitude above home in metres", true},
         {"mode", {"mode"}, 1, "mode takes the name of a mode", true},
+        {"land", {}, 0, {}, true, "Land"},
+        {"rtl", {}, 0, {}, true, "RTL"},
+        {"goto",
+         {"latitude", "longitude", "altitude"},
+         2,
+         "goto takes latitude and longitude in degrees, and the altitude above home in metres if it is to change",
+         true},
+        {"wait", {"state", "metres"}, 1, "wait takes ready, armed, disarmed, landed, or alt and metres", true},
         {"param", {"name", "value"}, 1, "param takes the name of a parameter, and its new value if it is to be set", true},
     };
     return all;
@@ -95,7 +109,7 @@ SetupResult<void> add_arguments(const CtlOptions& options, const Action& action,
                                                                in_quotes(options.arguments[action.arguments.size()])));
     for (std::size_t i = 0; i < options.arguments.size(); ++i) {
         const auto key = action.arguments[i];
-        if (key != "altitude" && key != "value") {
+        if (key == "url" || key == "name" || key == "mode") {
             request[std::string(key)] = options.arguments[i];
             continue;
         }
@@ -135,7 +149,10 @@ SetupResult<void> check_action(const CtlOptions& options) {
 SetupResult<Json> request_of(const CtlOptions& options) {
     if (auto good = check_action(options); !good) return tl::unexpected(std::move(good.error()));
     const Action& action = *std::ranges::find(actions(), options.action, &Action::name);
+    if (options.action != "wait" && !options.limit.empty())
+        return setup_error(SetupCode::usage, fmt::format("--for is for wait, not for {}", action.name));
     Json request{{"cmd", options.action}};
+    if (!action.mode.empty()) request = {{"cmd", "mode"}, {"mode", action.mode}};
     if (auto added = add_arguments(options, action, request); !added) return tl::unexpected(std::move(added.error()));
     if (options.force && action.name != "arm" && action.name != "disarm")
         return setup_error(SetupCode::usage, fmt::format("--force is for arm and disarm, not for {}", action.name));
@@ -149,7 +166,23 @@ SetupResult<Json> request_of(const CtlOptions& options) {
     return request;
 }
 
+Exit wait(const CtlOptions& options) {
+    const auto limit = endpoint::parse_duration(options.limit.empty() ? "60s" : options.limit);
+    if (!limit) return fail(SetupError(limit.error()).within("--for"));
+    auto state = options;
+    state.action = "state";
+    state.arguments.clear();
+    state.limit.clear();
+    const auto request = request_of(state);
+    if (!request) return fail(request.error());
+    if (options.arguments.empty())
+        return fail(Exit::wrong_use, std::ranges::find(actions(), "wait", &Action::name)->missing);
+    const auto lines = wait_for_state(options.arguments, *limit, [&] { return ask(options.name, *request); });
+    return lines ? print_lines(*lines) : fail(lines.error());
+}
+
 Exit ctl(const CtlOptions& options) {
+    if (options.action == "wait") return wait(options);
     const auto request = request_of(options);
     if (!request) return fail(request.error());
     const auto lines = ask(options.name, *request);
@@ -271,7 +304,8 @@ std::vector<std::string> lines_of(std::string_view name, const shm::CounterSnaps
     Json others{{"kind", "others"}};
     std::map<LinkId, Json> links;
     for (const auto& counter : snapshot.counters) {
-        if (counter.link) links[*counter.link][counter.label] = counter.value;
+        if (counter.link && counter.label == "up") links[*counter.link]["up"] = counter.value != 0;
+        else if (counter.link) links[*counter.link][counter.label] = counter.value;
         else if (counter.label.starts_with(others_prefix))
             others[counter.label.substr(others_prefix.size())] = counter.value;
         else page[counter.label] = counter.value;
@@ -288,11 +322,17 @@ std::vector<std::string> lines_of(std::string_view name, const shm::CounterSnaps
     return lines;
 }
 
+// A router without a ring knows more than its page: what each sender sent.
+bool has_all(const shm::CounterSnapshot& page, std::string_view name) {
+    const auto rings = shm::ring_names();
+    return is_of_simulator(page) || std::ranges::find(rings, name) != rings.end();
+}
+
 // Prefers the counter page of a live process, because reading it does not disturb the router. A page that a killed
 // process left behind is used only if no router answers.
 SetupResult<std::vector<std::string>> stats_of(const std::string& name) {
     const auto page = shm::read_counters(name, {.user = link::Links::owner_of_inlets()});
-    if (page && page->owner_alive) return lines_of(name, *page);
+    if (page && page->owner_alive && has_all(*page, name)) return lines_of(name, *page);
     auto asked = ask(name, {{"cmd", "stats"}});
     if (asked || (!page && page.error().code == SetupCode::not_found)) return asked;
     if (!page) return tl::unexpected(page.error());
@@ -313,9 +353,12 @@ Run declare_ctl(Arguments command, const Common&) {
         .required();
     command.add_option("action", "ACTION", options->action,
                        "links, stats, add URL, remove NAME; of a router: routes; of a simulator: streams, state, arm, "
-                       "disarm, takeoff ALTITUDE, mode NAME, param NAME [VALUE]");
+                       "disarm, takeoff ALTITUDE, land, rtl, goto LATITUDE LONGITUDE [ALTITUDE], mode NAME, param NAME "
+                       "[VALUE], wait STATE (ready, armed, disarmed, landed, alt METRES)");
     command.add_option("argument", "ARGUMENT", options->arguments, "what the action takes");
     command.add_option("--system", "N", options->system, "the vehicle with this system id (default: all)");
+    command.add_option("--for", "TIME", options->limit, "`wait` ends after this time, with status 1")
+        .default_str("60s");
     command.add_flag("--force", options->force, "arm or disarm even if the vehicle's own checks fail");
     command.footer(
         "Answers are JSON, one object per line (docs/guide/route.md, docs/guide/sim.md). If a vehicle refuses, the "
@@ -324,7 +367,9 @@ Run declare_ctl(Arguments command, const Common&) {
         "  mavloom ctl router links\n"
         "  mavloom ctl router add 'udpout://192.168.1.20:14550?name=tablet'\n"
         "  mavloom ctl router remove tablet\n"
+        "  mavloom ctl sim wait ready\n"
         "  mavloom ctl sim takeoff 10\n"
+        "  mavloom ctl sim wait alt 10 --for 30s\n"
         "  mavloom ctl sim mode Return --system 3");
     return [options] { return ctl(*options); };
 }

@@ -14,6 +14,7 @@
 #include "mavloom/base/counted.hpp"
 #include "mavloom/base/shown.hpp"
 #include "mavloom/base/suggest.hpp"
+#include "mavloom/base/text.hpp"
 
 namespace mavloom::app {
 namespace {
@@ -60,10 +61,8 @@ bool show_entry(fmt::memory_buffer& out, const dialect::Dialect& dialect, std::s
 
 // The name as the definitions spell it: ATTITUDE for `attitude`. The same text if there is none.
 std::string_view spelling_of(std::string_view name, const dialect::Dialect& dialect) {
-    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
     const auto names = all_names(dialect);
-    const auto same = std::ranges::find_if(
-        names, [&](std::string_view known) { return std::ranges::equal(known, name, {}, lower, lower); });
+    const auto same = std::ranges::find_if(names, [&](std::string_view known) { return same_letters(known, name); });
     return same == names.end() ? name : *same;
 }
 
@@ -99,13 +98,13 @@ Exit run_show(const Common& common, const DialectOptions& options) {
                                              did_you_mean(options.name, all_names(*dialect))));
 }
 
-struct Summary {
+struct DialectSummary {
     std::size_t messages = 0, enums = 0, entries = 0, fields = 0;
     std::size_t added = 0, changed = 0;  // compared with the built-in definitions
 };
 
-Summary summarize(const dialect::Dialect& dialect) {
-    Summary summary;
+DialectSummary summarize(const dialect::Dialect& dialect) {
+    DialectSummary summary;
     summary.messages = dialect.messages().size();
     summary.enums = dialect.enums().size();
     for (const auto& e : dialect.enums()) summary.entries += e.entries.size();

@@ -3,13 +3,13 @@
 #include <unistd.h>
 
 #include "command.hpp"
+#include "frames/receiving.hpp"
+#include "frames/traffic_report.hpp"
 #include "mavloom/base/counted.hpp"
 #include "mavloom/dialect/terms.hpp"
 #include "mavloom/message/format.hpp"
 #include "output.hpp"
-#include "receiving.hpp"
 #include "signals.hpp"
-#include "traffic_report.hpp"
 
 namespace mavloom::app {
 
@@ -36,7 +36,13 @@ class Listener {
 public:
     Listener(const Common& common, const ListenOptions& options, const dialect::Dialect& dialect,
              feed::Receiver& receiver, const dialect::Message* csv)
-        : common_(common), options_(options), dialect_(dialect), json_(dialect), receiver_(receiver), csv_(csv) {}
+        : common_(common),
+          options_(options),
+          dialect_(dialect),
+          json_(dialect),
+          receiver_(receiver),
+          csv_(csv),
+          traffic_(dialect) {}
 
     Exit run() {
         if (csv_ != nullptr && !options_.stats_only) message::append_csv_header(output_.buffer(), *csv_);
@@ -66,7 +72,7 @@ private:
             ++unprinted_;
             return;
         }
-        if (options_.has_table()) traffic_.add(entry.link, entry.frame, entry.time);
+        if (options_.has_table()) traffic_.add({.frame = entry.frame, .link = entry.link, .time = entry.time});
         if (!options_.stats_only)
             print({entry.time, receiver_.link_name(entry.link), entry.frame, dialect_.find(entry.frame.id())});
         ++printed_;
@@ -74,7 +80,7 @@ private:
     }
 
     bool wanted(const record::FrameQueue::Entry& entry) const {
-        return options_.selection.takes(entry.frame) && (csv_ == nullptr || entry.frame.id() == csv_->id());
+        return options_.selection.filter.admits(entry.frame) && (csv_ == nullptr || entry.frame.id() == csv_->id());
     }
 
     void print(const message::Received& received) {
@@ -121,8 +127,8 @@ private:
 
     // Prints the table to stdout, or to stderr if stdout carries CSV rows or has stalled.
     void report(std::uint64_t unprinted) {
-        const auto table = options_.json ? traffic_json(traffic_, receiver_, dialect_, unprinted)
-                                         : traffic_text(traffic_, receiver_, dialect_);
+        const auto table = options_.json ? traffic_json(traffic_, receiver_, unprinted)
+                                         : traffic_text(traffic_, receiver_);
         const bool has_rows = csv_ != nullptr && !options_.stats_only;
         if (has_rows || output_.state() == Output::State::interrupted) return write_stderr(table);
         output_.buffer().append(table);
@@ -136,7 +142,7 @@ private:
     feed::Receiver& receiver_;
     const dialect::Message* csv_;
     Output output_;
-    observe::TrafficTable traffic_;
+    observe::LatestTable traffic_;
     std::uint64_t printed_ = 0, unprinted_ = 0;
     MonoTime backlog_end_{};
     bool going_ = true;
@@ -145,7 +151,7 @@ private:
 Exit listen(const Common& common, ListenOptions& options) {
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
-    if (auto resolved = options.selection.resolve(*dialect); !resolved) return fail(resolved.error());
+    if (auto compiled = options.selection.compile(*dialect); !compiled) return fail(compiled.error());
     const dialect::Message* csv = nullptr;
     if (!options.csv.empty() && !options.selection.only.empty())
         return fail(Exit::wrong_use, fmt::format("--csv {} prints that one message; omit --only", options.csv));

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "frames/receiving.hpp"
+#include "frames/sending.hpp"
+#include "frames/traffic_report.hpp"
 #include "output.hpp"
-#include "receiving.hpp"
-#include "sending.hpp"
 #include "signals.hpp"
-#include "traffic_report.hpp"
 
 namespace mavloom::app {
 
@@ -37,9 +37,9 @@ public:
     // Runs until the end. Flushes records to the system whenever idle, so that a kill loses little.
     SetupResult<void> run() {
         while (receiver_.wait()) {
-            if (auto looked = look_at_file(); !looked) return looked;
+            if (auto looked = check_file(); !looked) return looked;
             while (const auto entry = receiver_.next()) {
-                if (!options_.selection.takes(entry->frame)) continue;
+                if (!options_.selection.filter.admits(entry->frame)) continue;
                 if (auto written = write(*entry); !written) return written;
                 if (writer_.taken_records() == options_.receive.count) return {};
             }
@@ -49,11 +49,11 @@ public:
     }
 
 private:
-    SetupResult<void> look_at_file() {
-        auto removed = writer_.look_after(mono_now());
+    SetupResult<void> check_file() {
+        auto removed = writer_.maintain(mono_now());
         if (!removed && writer_.can_retry(removed.error())) return {};  // the next write waits
         if (!removed) return tl::unexpected(std::move(removed.error()));
-        if (!removed->empty()) print_notice(common_, record::removal_notice(*removed, writer_.segment_path()));
+        if (!removed->empty()) print_event(common_, writer_.removal_notice(*removed));
         return {};
     }
 
@@ -73,15 +73,15 @@ private:
     SetupResult<void> retried(Step step) {
         auto done = step();
         if (done || !writer_.can_retry(done.error())) return done;
-        print_notice(common_,
-                     fmt::format("{}; trying again; frames that do not fit into --buffer are dropped and counted",
-                                 done.error().text));
+        print_event(common_,
+                    fmt::format("{}; trying again; frames that do not fit into --buffer are dropped and counted",
+                                done.error().text));
         while (!done && writer_.can_retry(done.error()) && may_continue()) {
             ::poll(nullptr, 0, static_cast<int>(retry_interval.count()));  // a signal ends the wait
-            if (auto looked = look_at_file(); !looked) return looked;
+            if (auto looked = check_file(); !looked) return looked;
             done = step();
         }
-        if (done) print_notice(common_, fmt::format("{}: records are written again", writer_.path().string()));
+        if (done) print_event(common_, fmt::format("{}: records are written again", writer_.path().string()));
         return done;
     }
 
@@ -106,7 +106,7 @@ SetupResult<record::RotatingWriter> create_output(const Common& common, const st
     if (!is_endpoint) return create_recording(common, endpoint, "--output");
     auto parsed = endpoint::parse_endpoint(text);
     if (!parsed) return tl::unexpected(std::move(parsed.error()).within("--output"));
-    if (parsed->scheme != endpoint::Scheme::tlog)
+    if (!parsed->is_recording())
         return setup_error(SetupCode::usage,
                            fmt::format("--output {}: record writes a .tlog file; relay sends to endpoints", text));
     return create_recording(common, *parsed, "--output");
@@ -115,7 +115,7 @@ SetupResult<record::RotatingWriter> create_output(const Common& common, const st
 // After a write error, counts the frames that still wait in the receiver as not written.
 void give_up_the_rest(const RecordOptions& options, feed::Receiver& receiver, record::RotatingWriter& writer) {
     while (const auto entry = receiver.next())
-        if (options.selection.takes(entry->frame)) writer.give_up();
+        if (options.selection.filter.admits(entry->frame)) writer.give_up();
 }
 
 std::string summary(const record::RotatingWriter& file, const feed::Totals& heard) {
@@ -127,7 +127,7 @@ std::string summary(const record::RotatingWriter& file, const feed::Totals& hear
 Exit record(const Common& common, RecordOptions& options) {
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
-    if (auto resolved = options.selection.resolve(*dialect); !resolved) return fail(resolved.error());
+    if (auto compiled = options.selection.compile(*dialect); !compiled) return fail(compiled.error());
     auto receiver = options.receive.open(common, *dialect);
     if (!receiver) return fail(receiver.error());
     const Signals signals([](void* r) noexcept { static_cast<feed::Receiver*>(r)->stop(); }, receiver->get());
@@ -141,8 +141,7 @@ Exit record(const Common& common, RecordOptions& options) {
     (*receiver)->join();
     if (!recorded) give_up_the_rest(options, **receiver, *writer);
     auto closed = writer->close();
-    if (const auto removed = writer->take_left(); !removed.empty())
-        print_notice(common, record::removal_notice(removed, writer->segment_path()));
+    if (closed && !closed->empty()) print_notice(common, writer->removal_notice(*closed));
     log_recorded(common, *writer);
     log_losses(common, (*receiver)->totals());
     const auto status = options.json ? print_at_end(summary(*writer, (*receiver)->totals()), Exit::done) : Exit::done;

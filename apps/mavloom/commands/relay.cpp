@@ -6,16 +6,16 @@
 #include <optional>
 
 #include "command.hpp"
+#include "frames/receiving.hpp"
+#include "frames/sending.hpp"
+#include "frames/traffic_report.hpp"
 #include "mavloom/base/counted.hpp"
 #include "mavloom/edit/stage.hpp"
 #include "mavloom/endpoint/checks.hpp"
 #include "mavloom/feed/relay.hpp"
 #include "mavloom/link/signing_times.hpp"
 #include "output.hpp"
-#include "receiving.hpp"
-#include "sending.hpp"
 #include "signals.hpp"
-#include "traffic_report.hpp"
 
 namespace mavloom::app {
 
@@ -24,6 +24,7 @@ namespace {
 struct RelayOptions {
     std::vector<std::string> sources, to;
     std::string duration;
+    Selection selection;
     edit::Options edit;
     std::string sign_file;
     bool as_v1 = false, as_v2 = false;
@@ -43,7 +44,7 @@ public:
         if (!times_) return;
         std::vector<std::string> notices;
         times_->keep(stage_.last_signed(), mono_now(), notices);
-        for (const auto& notice : notices) print_notice(common_, notice);
+        for (const auto& notice : notices) print_event(common_, notice);
     }
 
 private:
@@ -62,23 +63,28 @@ private:
         times_.keep();
         return Signals::received();
     }
-    void on_waiting() override { print_notice(common_, "waiting until every destination has a peer"); }
-    void on_started() override { print_notice(common_, "every destination has a peer: starting"); }
+    void on_waiting() override { print_event(common_, "waiting until every destination has a peer"); }
+    void on_started() override { print_event(common_, "every destination has a peer: starting"); }
     void on_link_up(std::string_view name) override {
-        if (common_.verbose > 0) print_notice(common_, fmt::format("{}: up", name));
+        if (common_.verbose > 0) print_event(common_, fmt::format("{}: up", name));
     }
     void on_link_down(std::string_view name, std::string_view why) override {
-        if (common_.verbose > 0) print_notice(common_, fmt::format("{}: down, {}", name, why));
+        if (common_.verbose > 0) print_event(common_, fmt::format("{}: down, {}", name, why));
     }
-    void on_notice(std::string_view text) override { print_notice(common_, text); }
+    void on_notice(std::string_view text) override { print_event(common_, text); }
 
     const Common& common_;
     KeptTimes& times_;
 };
 
+std::string_view filters_of(const Selection& selection) {
+    if (selection.from.empty()) return "that --only leaves out";
+    return selection.only.empty() ? "that --from leaves out" : "that --only and --from leave out";
+}
+
 // Prints the relay's results: as log lines, and as one JSON object.
-void log_report(const Common& common, const feed::Destinations& destinations, const edit::Counters& c,
-                const feed::RelayOutcome& outcome) {
+void log_report(const Common& common, const RelayOptions& options, const feed::Destinations& destinations,
+                const edit::Counters& c, const feed::RelayOutcome& outcome) {
     log_sums(common, destinations);
     print_notice(
         common, fmt::format("{} in, {} decoded and re-encoded, {} passed untouched", counted(c.frames.value(), "frame"),
@@ -88,7 +94,7 @@ void log_report(const Common& common, const feed::Destinations& destinations, co
         if (count != 0) print_notice(common, fmt::format("{}: {} {}", name, counted(count, noun), rest));
     };
     unless_zero("rewrapped", c.rewrapped.value(), "frame", "without full definition, with a new header and checksum");
-    unless_zero("filtered", c.filtered.value(), "frame", "that --only or --from leave out");
+    unless_zero("filtered", c.filtered.value(), "frame", filters_of(options.selection));
     unless_zero("rate_limited", c.rate_limited.value(), "frame", "over --max-rate");
     unless_zero("not_v1", c.not_v1.value(), "frame", "that MAVLink 1 cannot carry");
     unless_zero("not_signed", c.not_signed.value(), "MAVLink 1 frame", "which cannot carry a signature (--as-v2 helps)");
@@ -146,41 +152,31 @@ SetupResult<std::optional<link::SigningTimes>> open_key(const Common& common, Re
     return std::move(*times);
 }
 
-bool is_sent_to(const endpoint::Endpoint& ring, const std::vector<std::string>& to) {
-    return std::ranges::any_of(to, [&](const std::string& text) {
-        const auto endpoint = endpoint::parse_endpoint(text);
-        return endpoint && endpoint->scheme == endpoint::Scheme::shm && endpoint->path == ring.path;
-    });
+using Endpoints = std::span<const endpoint::Endpoint>;
+
+// `port`: where the source listens.
+SetupResult<void> check_no_loop(const endpoint::Endpoint& source, std::uint16_t port, Endpoints to) {
+    const auto loop = std::ranges::find_if(
+        to, [&](const endpoint::Endpoint& endpoint) { return endpoint::leads_back(source, port, endpoint); });
+    if (loop == to.end()) return {};
+    return setup_error(
+        SetupCode::usage,
+        source.is_ring()
+            ? fmt::format("--to {} would send the ring its own records; choose another destination", loop->label())
+            : fmt::format("--to {} is where {} listens: every frame would loop forever; choose another port",
+                          loop->label(), source.label()));
 }
 
-SetupResult<void> open_sources(const RelayOptions& options, feed::Sources& sources) {
-    for (const auto& text : options.sources) {
-        auto endpoint = endpoint::parse_endpoint(text);
-        if (!endpoint) return tl::unexpected(std::move(endpoint.error()));
-        if (endpoint->scheme == endpoint::Scheme::shm && is_sent_to(*endpoint, options.to))
-            return setup_error(SetupCode::usage, fmt::format("--to {} would send the ring its own records; choose "
-                                                             "another destination",
-                                                             endpoint->label()));
-        const bool is_ring = endpoint->scheme == endpoint::Scheme::shm;
-        if (is_ring && !endpoint->options.lossless) endpoint->options.lossless = true;
-        if (auto added = sources.add(*endpoint, mono_now()); !added) return tl::unexpected(std::move(added.error()));
+SetupResult<void> open_sources(Endpoints given, Endpoints to, feed::Sources& sources) {
+    for (auto source : given) {
+        if (source.is_ring()) {
+            if (auto good = check_no_loop(source, 0, to); !good) return good;
+            if (!source.options.lossless) source.options.lossless = true;
+        }
+        if (auto added = sources.add(source, mono_now()); !added) return tl::unexpected(std::move(added.error()));
     }
-    return {};
-}
-
-SetupResult<void> check_no_loop(const std::vector<link::EndpointInfo>& sources, const std::vector<std::string>& to) {
-    for (const auto& text : to) {
-        const auto endpoint = endpoint::parse_endpoint(text);
-        const auto loop = std::ranges::find_if(sources, [&](const auto& source) {
-            return endpoint && endpoint::leads_back(source.endpoint, source.local_port, *endpoint);
-        });
-        if (loop != sources.end())
-            return setup_error(
-                SetupCode::usage,
-                fmt::format("--to {} is where {} listens: every frame would loop forever; choose another "
-                            "port",
-                            endpoint->label(), loop->label()));
-    }
+    for (const auto& info : sources.links().endpoints())
+        if (auto good = check_no_loop(info.endpoint, info.local_port, to); !good) return good;
     return {};
 }
 
@@ -190,16 +186,19 @@ Exit relay(const Common& common, RelayOptions& options) {
     if (auto checked = check_words(options); !checked) return fail(checked.error());
     auto times = open_key(common, options);
     if (!times) return fail(times.error());
+    if (auto compiled = options.selection.compile(*dialect); !compiled) return fail(compiled.error());
+    options.edit.filter = options.selection.filter;
     auto stage = edit::Stage::create(*dialect, options.edit);
     if (!stage) return fail(stage.error());
     for (const auto& warning : (*stage)->warnings()) print_notice(common, warning);
+    const auto given = endpoint::parse_endpoints(options.sources), to = endpoint::parse_endpoints(options.to, "--to");
+    if (!given || !to) return fail(given ? to.error() : given.error());
     auto sources = feed::Sources::create(*dialect, feed::Copies::left_out);
     if (!sources) return fail(sources.error());
-    if (auto opened = open_sources(options, *sources); !opened) return fail(opened.error());
-    if (auto good = check_no_loop(sources->links().endpoints(), options.to); !good) return fail(good.error());
+    if (auto opened = open_sources(*given, *to, *sources); !opened) return fail(opened.error());
     const Signals signals([](void* s) noexcept { static_cast<feed::Sources*>(s)->wake(); }, &*sources);
     log_ports(common, sources->links().endpoints());
-    auto destinations = open_destinations(common, options.to, sources->links());
+    auto destinations = open_destinations(common, *to, sources->links());
     if (!destinations) return Signals::received() ? Signals::status(Exit::failed) : fail(destinations.error());
     const auto end = options.duration.empty() ? MonoTime::max()
                                               : mono_now() + *endpoint::parse_duration(options.duration);
@@ -209,7 +208,7 @@ Exit relay(const Common& common, RelayOptions& options) {
     feed::Relay relaying(*sources, *destinations, **stage, events, options.edit.sign_key ? Signing::on : Signing::off);
     const auto outcome = relaying.run(end);
     const auto& counters = (*stage)->counters();
-    log_report(common, *destinations, counters, outcome);
+    log_report(common, options, *destinations, counters, outcome);
     const auto printed = options.json ? print_at_end(summary(*destinations, counters, outcome), Exit::done) : Exit::done;
     return status_of(outcome, printed);
 }
@@ -221,9 +220,7 @@ void declare_edits(Arguments command, RelayOptions& options) {
                        "give a field this value: ATTITUDE.roll=0.1; may be repeated");
     command.add_option("--remap-system", "A=B", edit.remap_system,
                        "change system id A to B; in answers from the far side, change B back to A");
-    command.add_option("--only", "NAMES", edit.only, "only these messages: names or ids, separated by commas")
-        .delimiter(',');
-    command.add_option("--from", "SYS[/COMP]", edit.from, "only from this system, or from this component of it");
+    options.selection.declare(command);
     command
         .add_option("--max-rate", "MESSAGE:HZ", edit.max_rate,
                     "limit a message from each source to this rate; * is all telemetry: ATTITUDE:10,*:50")

@@ -8,16 +8,16 @@
 #include <system_error>
 
 #include "command.hpp"
+#include "frames/receiving.hpp"
+#include "frames/sending.hpp"
+#include "frames/traffic_report.hpp"
 #include "mavloom/base/counted.hpp"
 #include "mavloom/base/shown.hpp"
 #include "mavloom/feed/sources.hpp"
 #include "mavloom/link/flush.hpp"
 #include "mavloom/record/tlog_index.hpp"
 #include "output.hpp"
-#include "receiving.hpp"
-#include "sending.hpp"
 #include "signals.hpp"
-#include "traffic_report.hpp"
 
 namespace mavloom::app {
 
@@ -47,7 +47,7 @@ public:
         while (going(end) && !destinations_.failed() && !sources_.finished_recordings()) {
             const std::size_t room = std::min(frames_a_turn, destinations_.room_in_frames());
             sources_.turn(*this, std::min(end, mono_now() + (room == 0 ? 1ms : 100ms)), feed::Room(room));
-            destinations_.look_after_files(mono_now(), [this](std::string_view text) { print_notice(common_, text); });
+            destinations_.maintain_files(mono_now(), [this](auto text) { print_event(common_, text); });
             show_progress();
         }
         link::flush(sources_.links(), *this, longest_flush);
@@ -58,7 +58,7 @@ public:
     // Waits until every destination has a peer.
     void wait_for_peers(MonoTime end) {
         if (options_.no_wait || destinations_.all_up()) return;
-        print_notice(common_, "waiting until every destination has a peer (--no-wait starts at once)");
+        print_event(common_, "waiting until every destination has a peer (--no-wait starts at once)");
         while (going(end) && !destinations_.all_up()) sources_.links().turn(*this, mono_now() + 100ms);
     }
 
@@ -67,10 +67,10 @@ private:
         if (destinations_.has(rx.endpoint)) return;  // a recording has no use for answers
         ++frames_;
         bytes_ += rx.frame.size();
-        if (options_.selection.takes(rx.frame)) destinations_.send(rx.frame, rx.time);
+        if (options_.selection.filter.admits(rx.frame)) destinations_.send(rx.frame, rx.time);
     }
 
-    void on_notice(link::EndpointId, std::string_view text) override { print_notice(common_, text); }
+    void on_notice(link::EndpointId, std::string_view text) override { print_event(common_, text); }
 
     static bool going(MonoTime end) { return !Signals::received() && mono_now() < end; }
 
@@ -96,7 +96,7 @@ private:
     }
 
     Exit finish() {
-        const auto closed = destinations_.close();
+        const auto closed = destinations_.close([this](auto text) { print_notice(common_, text); });
         log_sums(common_, destinations_);
         const auto& counters = sources_.recordings().front()->reader.counters();
         if (!options_.start.empty() && frames_ == 0 && sources_.finished_recordings() && sources_.error() == nullptr)
@@ -127,13 +127,11 @@ private:
 
 // Returns true if a destination is the recording itself: creating that output would rename the file to be read.
 // Rotating outputs are allowed, because they choose their own file names.
-bool is_written_over(const endpoint::Endpoint& recording, const std::vector<std::string>& to) {
-    return std::ranges::any_of(to, [&](const std::string& text) {
-        const auto endpoint = endpoint::parse_endpoint(text);
+bool is_written_over(const endpoint::Endpoint& recording, std::span<const endpoint::Endpoint> to) {
+    return std::ranges::any_of(to, [&](const endpoint::Endpoint& endpoint) {
         std::error_code none;
-        if (!endpoint || endpoint->scheme != endpoint::Scheme::tlog) return false;
-        const bool rotates = endpoint->options.rotate_bytes != 0 || endpoint->options.rotate_every != Nanoseconds{};
-        return !rotates && std::filesystem::equivalent(endpoint->path, recording.path, none);
+        const bool rotates = endpoint.options.rotate_bytes != 0 || endpoint.options.rotate_every != Nanoseconds{};
+        return endpoint.is_recording() && !rotates && std::filesystem::equivalent(endpoint.path, recording.path, none);
     });
 }
 
@@ -148,15 +146,17 @@ SetupResult<Nanoseconds> time_of(const std::string& text, std::string_view optio
 Exit replay(const Common& common, ReplayOptions& options) {
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
-    if (auto resolved = options.selection.resolve(*dialect); !resolved) return fail(resolved.error());
+    if (auto compiled = options.selection.compile(*dialect); !compiled) return fail(compiled.error());
     const bool is_endpoint = endpoint::is_recording_path(options.file) || options.file.find("://") != std::string::npos;
     auto endpoint = endpoint::parse_endpoint(is_endpoint ? options.file : "tlog://" + options.file);
     if (!endpoint) return fail(endpoint.error());
-    if (endpoint->scheme != endpoint::Scheme::tlog)
+    if (!endpoint->is_recording())
         return fail(Exit::wrong_use, fmt::format("replay reads a .tlog file, not {}", options.file));
     if (!options.speed.empty())  // overrides the speed in the URL
         if (auto set = endpoint::set_endpoint_option(*endpoint, "speed", options.speed); !set)
             return fail(std::move(set.error()).within("--speed"));
+    const auto to = endpoint::parse_endpoints(options.to, "--to");
+    if (!to) return fail(to.error());
     const auto start = time_of(options.start, "--start"), length = time_of(options.duration, "--for");
     if (!start) return fail(start.error());
     if (!length) return fail(length.error());
@@ -164,10 +164,10 @@ Exit replay(const Common& common, ReplayOptions& options) {
     auto sources = feed::Sources::create(*dialect);
     if (!sources) return fail(sources.error());
     if (auto checked = sources->check(*endpoint); !checked) return fail(checked.error());
-    if (is_written_over(*endpoint, options.to))
+    if (is_written_over(*endpoint, *to))
         return fail(Exit::wrong_use, fmt::format("--to is the recording itself, {}; choose another file", options.file));
     const Signals signals([](void* s) noexcept { static_cast<feed::Sources*>(s)->wake(); }, &*sources);
-    auto destinations = open_destinations(common, options.to, sources->links());
+    auto destinations = open_destinations(common, *to, sources->links());
     if (!destinations) return Signals::received() ? Signals::status(Exit::failed) : fail(destinations.error());
     const MonoTime forever = MonoTime::max();
     Replayer replayer(common, options, *sources, *destinations);

@@ -6,13 +6,14 @@
 #include <utility>
 
 #include "command.hpp"
+#include "frames/receiving.hpp"
 #include "mavloom/control/service_manager.hpp"
 #include "mavloom/simserve/report.hpp"
 #include "mavloom/simserve/scenario.hpp"
 #include "mavloom/simserve/simulator.hpp"
 #include "open_control.hpp"
 #include "output.hpp"
-#include "receiving.hpp"
+#include "page/web_beside.hpp"
 #include "signals.hpp"
 
 namespace mavloom::app {
@@ -59,6 +60,10 @@ constexpr KeyOption key_options[] = {
     {"--ring", "sim", "ring", "also write all frames of the vehicles into the ring /dev/shm/mavloom.NAME", "NAME"},
     {"--name", "sim", "name", "name for `mavloom ctl` and `stat` (default: the name of the ring, or sim)", "NAME"},
     {"--metrics", "sim", "metrics", "serve Prometheus metrics at http://HOST:PORT/metrics", "HOST:PORT"},
+    {"--web", "web", "listen",
+     "serve the page and viewers at http://HOST:PORT, for example 127.0.0.1:8088 (docs/guide/web.md)", "HOST:PORT"},
+    {"--web-origin", "web", "origin", "web pages that may connect to --web, as in https://app.foxglove.dev", "URL,..."},
+    {"--web-host", "web", "host", "further names of this machine that clients of --web use", "NAME,..."},
 };
 
 struct SimOptions {
@@ -82,18 +87,16 @@ struct SimOptions {
 
 SetupResult<void> add_endpoints(const std::vector<std::string>& texts, std::string_view option, bool listens,
                                 Scenario& scenario) {
-    for (const auto& text : texts) {
-        auto endpoint = endpoint::parse_endpoint(text);
-        if (!endpoint) return tl::unexpected(std::move(endpoint.error()).within(option));
-        const bool is_listening = endpoint->scheme == endpoint::Scheme::udpin ||
-                                  endpoint->scheme == endpoint::Scheme::tcpin;
-        if (listens != is_listening)
-            return setup_error(
-                SetupCode::usage,
-                fmt::format("{} is for {}; put {} {}", option, listens ? "udpin:// and tcpin://" : "destinations",
-                            endpoint->label(), listens ? "after --to" : "after --listen"));
-        if (auto good = Simulator::check(*endpoint); !good) return good;
-        scenario.endpoints.push_back({std::move(*endpoint)});
+    auto endpoints = endpoint::parse_endpoints(texts, option);
+    if (!endpoints) return tl::unexpected(std::move(endpoints.error()));
+    for (auto& endpoint : *endpoints) {
+        if (listens != endpoint.listens())
+            return setup_error(SetupCode::usage,
+                               fmt::format("{} is for {}; put {} {}", option,
+                                           listens ? endpoint::schemes_text(endpoint::Side::listens) : "destinations",
+                                           endpoint.label(), listens ? "after --to" : "after --listen"));
+        if (auto good = Simulator::check(endpoint); !good) return good;
+        scenario.endpoints.push_back({std::move(endpoint)});
     }
     return {};
 }
@@ -206,6 +209,10 @@ Exit simulate(const Common& common, const SimOptions& options) {
     const auto control = open_control(common, **simulator, std::move(control_options), scenario->name,
                                       scenario->control_name());
     if (!control) return fail(control.error());
+    const auto web = WebBeside::open(
+        common, *dialect, scenario->web,
+        {scenario->ring.name.empty() ? scenario->control_name() : scenario->ring.name, scenario->ring.name, {}});
+    if (!web) return fail(web.error());
     log_vehicles(common, *scenario);
     log_ports(common, (*simulator)->links().endpoints());
     fly(*scenario, **simulator);
@@ -221,11 +228,14 @@ Run declare_sim(Arguments command, const Common& common) {
                        "vehicles and endpoints, from a file (docs/guide/sim.md); `mavloom check` validates it");
     command
         .add_option("--to", "ENDPOINT", options->to,
-                    "send to udpout://, tcpout://, serial://, udpbcast://, udpmcast://, or shm://NAME, the inlet of a "
-                    "router's ring; may be repeated (default: udpout://127.0.0.1:14550)")
+                    fmt::format("send to {}, or shm://NAME, the inlet of a router's ring; may be repeated (default: "
+                                "udpout://127.0.0.1:14550)",
+                                endpoint::schemes_text(endpoint::Side::calls)))
         .one_value_each();
     command
-        .add_option("--listen", "ENDPOINT", options->listen, "wait for clients at udpin:// or tcpin://; may be repeated")
+        .add_option(
+            "--listen", "ENDPOINT", options->listen,
+            fmt::format("wait for clients at {}; may be repeated", endpoint::schemes_text(endpoint::Side::listens)))
         .one_value_each();
     for (std::size_t i = 0; i < std::size(key_options); ++i) {
         const KeyOption& option = key_options[i];

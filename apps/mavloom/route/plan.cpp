@@ -34,7 +34,7 @@ SetupResult<config::Config> read_config(const RouteOptions& options, const diale
 SetupResult<void> check_recordings(std::span<const endpoint::Endpoint> endpoints) {
     std::set<std::filesystem::path> recordings;
     for (const auto& e : endpoints)
-        if (e.scheme == endpoint::Scheme::tlog && !recordings.insert(endpoint::canonical_path(e.path)).second)
+        if (e.is_recording() && !recordings.insert(endpoint::canonical_path(e.path)).second)
             return setup_error(SetupCode::usage,
                                fmt::format("another recording already writes to {}", in_quotes(e.path)));
     return {};
@@ -43,14 +43,8 @@ SetupResult<void> check_recordings(std::span<const endpoint::Endpoint> endpoints
 // True for `flight.tlog`, without scheme and options, if such a file exists and is not empty.
 bool is_existing_flight(const std::string& text, const endpoint::Endpoint& endpoint) {
     std::error_code none;
-    return endpoint.scheme == endpoint::Scheme::tlog && text == endpoint.path &&
-           std::filesystem::is_regular_file(text, none) && std::filesystem::file_size(text, none) > 0;
-}
-
-bool calls_somebody(const endpoint::Endpoint& endpoint) {
-    using endpoint::Scheme;
-    constexpr std::array calling{Scheme::udpout, Scheme::tcpout, Scheme::udpbcast, Scheme::udpmcast};
-    return std::ranges::find(calling, endpoint.scheme) != calling.end();
+    return endpoint.is_recording() && text == endpoint.path && std::filesystem::is_regular_file(text, none) &&
+           std::filesystem::file_size(text, none) > 0;
 }
 
 // `route flight.tlog udpout://...` probably means `replay`. It would record, and rename the flight first.
@@ -61,8 +55,9 @@ SetupResult<void> check_not_replayed(std::span<const std::string> texts, const P
         const auto all = plan.endpoints();
         const auto is_other = [&](const endpoint::Endpoint& e) { return e.path != flight.path; };
         const auto others = static_cast<std::size_t>(std::ranges::count_if(all, is_other));
-        const auto called = std::ranges::find_if(all, calls_somebody);
-        if (others == 0 || static_cast<std::size_t>(std::ranges::count_if(all, calls_somebody)) != others) continue;
+        const auto called = std::ranges::find_if(all, &endpoint::Endpoint::calls);
+        if (others == 0 || static_cast<std::size_t>(std::ranges::count_if(all, &endpoint::Endpoint::calls)) != others)
+            continue;
         return setup_error(SetupCode::usage,
                            fmt::format("{0} is a recording, and route would begin a new one under its name; to send "
                                        "it, type mavloom replay {0} --to {1}; to record, tlog://{0}",

@@ -10,6 +10,7 @@
 #include "mavloom/control/service_manager.hpp"
 #include "mavloom/router/router.hpp"
 #include "open_control.hpp"
+#include "page/web_beside.hpp"
 #include "plan.hpp"
 #include "signals.hpp"
 
@@ -25,7 +26,7 @@ constexpr auto send_limit = 2s;  // to send what is still queued
 // which must not happen if the router cannot start because a port is in use.
 SetupResult<void> add_endpoints(router::Router& router, const Plan& plan, bool recordings) {
     for (const auto& endpoint : plan.endpoints())
-        if ((endpoint.scheme == endpoint::Scheme::tlog) == recordings)
+        if (endpoint.is_recording() == recordings)
             if (auto added = router.add(endpoint); !added) return added;
     return {};
 }
@@ -84,8 +85,11 @@ private:
             write_stderr_line("mavloom: a changed [ring] takes effect when the router restarts");
         if (config->service != plan_.config.service)
             write_stderr_line("mavloom: changed name and metrics take effect when the router restarts");
+        if (config->web != plan_.config.web)
+            write_stderr_line("mavloom: a changed [web] takes effect when the router restarts");
         config->ring = plan_.config.ring;
         config->service = plan_.config.service;
+        config->web = plan_.config.web;
         plan_.config = std::move(*config);
         log_level_ = plan_.config.log_level;
         if (!same_rules) router_.configure(plan_.config.router);
@@ -133,6 +137,17 @@ SetupResult<std::unique_ptr<control::Control>> open_router_control(const Common&
                         config.ring.name.empty() ? "router" : config.ring.name);
 }
 
+// Opens the counter page of a router without a ring. Returns the page's name; empty if there is none: another router of
+// the usual name keeps its page.
+std::string open_page(const Common& common, const config::Config& config, router::Router& router) {
+    if (!config.ring.name.empty()) return config.ring.name;
+    auto name = config.service.name.empty() ? std::string("router") : config.service.name;
+    const auto opened = router.open_page(name);
+    if (opened) return name;
+    if (opened.error().code != SetupCode::in_use) print_notice(common, opened.error().text);
+    return {};
+}
+
 Exit route(const Common& common, const RouteOptions& options) {
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
@@ -162,6 +177,10 @@ Exit route(const Common& common, const RouteOptions& options) {
     if (auto added = add_endpoints(**router, *plan, false); !added) return fail(added.error());
     const auto control = open_router_control(common, plan->config, **router);
     if (!control) return fail(control.error());
+    const auto page = open_page(common, plan->config, **router);
+    const auto web = WebBeside::open(common, *dialect, plan->config.web,
+                                     {page, plan->config.ring.name, plan->config.service.name});
+    if (!web) return fail(web.error());
     if (auto added = add_endpoints(**router, *plan, true); !added) return fail(added.error());
     return Routing(common, options, *dialect, **router, std::move(*plan), log_level).run(explain);
 }

@@ -19,7 +19,7 @@ Run declare_read(Arguments, const Common&);
 Run declare_remove(Arguments, const Common&);
 
 // How often a subcommand that waits for a ring checks for signals.
-inline constexpr Nanoseconds look_at_signals = std::chrono::milliseconds{100};
+inline constexpr Nanoseconds signal_poll_interval = std::chrono::milliseconds{100};
 
 // Arguments that several subcommands take.
 inline void add_name(Arguments part, std::string& name) {

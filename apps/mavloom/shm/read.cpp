@@ -78,7 +78,8 @@ public:
     Exit run() {
         while (going_ && !Signals::received()) {
             auto record = follower_.read(mono_now());
-            if (!record && idle(record.error())) record = follower_.read(std::min(end_, mono_now() + look_at_signals));
+            if (!record && idle(record.error()))
+                record = follower_.read(std::min(end_, mono_now() + signal_poll_interval));
             if (record) take(*record);
             else if (record.error() == shm::ReadError::damaged) return finish(Exit::bad_input);
             if (mono_now() >= end_) going_ = false;
@@ -94,8 +95,7 @@ private:
         if (options_.drain && follower_.opened() != 0) return going_ = false;
         const auto* const error = follower_.error();
         if (error != nullptr && (options_.drain || error->code != SetupCode::not_found)) return going_ = false;
-        if (error != nullptr && !std::exchange(has_said_, true))
-            print_notice(common_, error->text + "; waiting for it");
+        if (error != nullptr && !std::exchange(has_said_, true)) print_event(common_, error->text + "; waiting for it");
         return true;
     }
 

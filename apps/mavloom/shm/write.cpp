@@ -87,7 +87,7 @@ private:
                                    static_cast<std::uint16_t>(options_.kind),
                                    static_cast<std::uint8_t>(options_.verdict)};
         for (;;) {
-            const auto written = writer_.write(bytes, info, mono_now() + look_at_signals);
+            const auto written = writer_.write(bytes, info, mono_now() + signal_poll_interval);
             const bool is_full = !written && written.error() == shm::WriteError::full;
             if (!is_full || options_.full != "wait" || Signals::received()) return written;
         }

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <string_view>
 
 namespace mavloom {
 
@@ -28,5 +29,13 @@ private:
 };
 
 static_assert(sizeof(Counter) == 8, "counters also live in a shared page");
+
+// A row of the table that lists the counters of a struct. The name is the one in `ctl`, `stat`, the metrics, Python and
+// docs/guide/route.md; the help is one line, for the metrics and Python.
+template <class Counters>
+struct CounterRow {
+    std::string_view name, help;
+    Counter Counters::*word;
+};
 
 }  // namespace mavloom

@@ -13,11 +13,11 @@ public:
     // Allows one event per `interval`, and up to `burst` events at once after a rest.
     constexpr Pace(Nanoseconds interval, int burst) noexcept : interval_(interval), lead_((burst - 1) * interval) {}
 
+    [[nodiscard]] constexpr bool allows(MonoTime now) const noexcept { return next_ <= now; }
     // Returns whether the event may happen now. If so, counts it.
     [[nodiscard]] constexpr bool take(MonoTime now) noexcept {
-        next_ = std::max(next_, now - lead_);
-        if (now < next_) return false;
-        next_ += interval_;
+        if (!allows(now)) return false;
+        next_ = std::max(next_, now - lead_) + interval_;
         return true;
     }
 

@@ -5,14 +5,20 @@
 
 #include <cstdint>
 
+#ifndef __SIZEOF_INT128__
+#include "mavloom/base/folded_product.hpp"
+#endif
+
 namespace mavloom {
 
+#ifdef __SIZEOF_INT128__
 // Folds the 128-bit product, so that every bit of the result depends on every bit of both factors.
 [[nodiscard]] constexpr std::uint64_t folded_product(std::uint64_t a, std::uint64_t b) noexcept {
     __extension__ using Wide = unsigned __int128;
     const Wide product = static_cast<Wide>(a) * b;
     return static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64);
 }
+#endif
 
 class SecretHash {
 public:

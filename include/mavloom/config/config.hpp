@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads and checks the configuration file: TOML with [router], [[endpoint]], [ring], [record] and [log].
+// Reads and checks the configuration file: TOML with [router], [[endpoint]], [ring], [record], [web] and [log].
 //
 // A value in the file overrides the default, an environment variable overrides both, and an option of the command line
 // overrides all. Each value records where it came from. An unknown section, key or value is an error with file, line
@@ -67,6 +67,14 @@ struct RecordConfig {
     std::chrono::nanoseconds rotate_every{};
 };
 
+// The server of web pages and viewers beside a router or a simulator (docs/guide/web.md).
+struct WebConfig {
+    std::optional<endpoint::HostPort> listen{};  // empty: none
+    std::vector<std::string> origins{};          // web pages that may connect
+    std::vector<std::string> hosts{};            // further names of this machine
+    friend bool operator==(const WebConfig&, const WebConfig&) = default;
+};
+
 enum class Origin : std::uint8_t { by_default, file, environment, option };
 
 // One effective value, as text in the file's syntax, and its origin.
@@ -90,6 +98,7 @@ struct Config {
     ServiceConfig service;
     RingConfig ring;
     RecordConfig record;
+    WebConfig web;
     LogLevel log_level = LogLevel::info;
     std::vector<endpoint::Endpoint> endpoints;
 
@@ -99,7 +108,7 @@ struct Config {
 };
 
 // NAME=VALUE pairs whose name begins with MAVLOOM_. For example, MAVLOOM_ROUTER_DEDUP_MS sets `dedup_ms` of [router];
-// the names for [ring], [record] and [log] are formed the same way. A variable that matches no key is an error
+// the names for [ring], [record], [web] and [log] are formed the same way. A variable that matches no key is an error
 // in two cases: MAVLOOM_ is followed by a section's name, or the name resembles that of a key. Otherwise it only adds a
 // note.
 using Environment = std::vector<std::pair<std::string, std::string>>;

@@ -25,7 +25,12 @@ struct ConfigKey {
 };
 
 [[nodiscard]] std::span<const ConfigKey> config_keys() noexcept;
-// "router", "ring", "record", "log".
+// "router", "ring", "record", "log", "web".
 [[nodiscard]] std::span<const std::string_view> config_sections() noexcept;
+
+// The keys of [web], which scenarios have too. Lists are separated by commas.
+[[nodiscard]] SetupResult<void> set_web_listen(WebConfig& web, std::string_view text);
+[[nodiscard]] SetupResult<void> set_web_origins(WebConfig& web, std::string_view text);
+[[nodiscard]] SetupResult<void> set_web_hosts(WebConfig& web, std::string_view text);
 
 }  // namespace mavloom::config

@@ -4,10 +4,11 @@
 // The Unix stream socket takes one JSON request per line and answers with JSON lines (docs/guide/route.md). The HTTP
 // address, if there is one, serves metrics to Prometheus.
 //
-// The control thread serves both. It posts each request to the program's thread. That thread copies its counters in
-// pieces, one piece between two turns of its loop. The control thread then formats the answer in pieces, at a low
-// priority. It sends each piece after the client has taken the previous one. Up to 64 clients of each kind can be
-// connected. A further client replaces the one that has been idle longest.
+// The control thread posts each request to the program's thread. That thread copies its counters in pieces, one piece
+// between two turns of its loop. The control thread then formats the answer in pieces, at a low priority. It sends each
+// piece after the client has taken the previous one. HTTP clients have a thread of their own (module http), which asks
+// the control thread. Up to 64 clients of each kind can be connected. A further client replaces the one that has been
+// idle longest.
 //
 // The socket is RUN/NAME.ctl, mode 0600. `net::run_path` chooses the folder RUN: $MAVLOOM_RUN if set, else
 // /run/mavloom, else $XDG_RUNTIME_DIR/mavloom.

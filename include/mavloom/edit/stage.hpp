@@ -16,6 +16,7 @@
 #include "mavloom/base/counter.hpp"
 #include "mavloom/base/result.hpp"
 #include "mavloom/dialect/dialect.hpp"
+#include "mavloom/dialect/filter.hpp"
 #include "mavloom/wire/frame.hpp"
 #include "mavloom/wire/signing.hpp"
 
@@ -27,8 +28,7 @@ struct Options {
     std::vector<std::string> set{};  // "MESSAGE.field=value"; applied after remap_system
     // "A=B": replaces source and target system A by B. All pairs apply at once, so "1=2" and "2=1" swap.
     std::vector<std::string> remap_system{};
-    std::vector<std::string> only{};  // message names or ids
-    std::string from{};               // "SYS" or "SYS/COMP": only frames of this sender; empty: of all
+    dialect::Filter filter{};  // drops the frames that it does not admit
     // "ATTITUDE:10", or "*:50" for all other telemetry (dialect/rates.hpp). The limit applies to each source and
     // message separately, measured in the frames' own time.
     std::vector<std::string> max_rate{};
@@ -47,7 +47,7 @@ struct Counters {
     Counter reencoded;         // decoded and encoded again
     Counter rewrapped;         // new header, original payload: the definition is missing or does not cover the payload
     Counter passed_untouched;  // forwarded as it came: unknown id, signed, or encoded in an unusual way
-    Counter filtered;          // dropped by `only` or `from`
+    Counter filtered;          // dropped by `filter`
     Counter rate_limited;      // dropped by `max_rate`
     Counter not_v1;      // dropped because MAVLink 1 cannot carry it: id over 255, or no definition for the conversion
     Counter not_signed;  // forwarded unsigned although a key was given, because MAVLink 1 has no signatures

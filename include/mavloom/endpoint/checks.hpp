@@ -27,8 +27,8 @@ enum class RoutingOptions : std::uint8_t { refused, by_owner };
 // bind=HOST:PORT as an address; empty if bind= is not set.
 [[nodiscard]] SetupResult<std::optional<net::Address>> local_address(const Endpoint& endpoint);
 
-// Returns true if frames sent to `to` would arrive at `source`, which listens on `port` of this machine. Looks up no
-// names.
+// Returns true if frames sent to `to` would arrive at `source`: at a ring, or at an endpoint that listens on `port` of
+// this machine. Looks up no names.
 [[nodiscard]] bool leads_back(const Endpoint& source, std::uint16_t port, const Endpoint& to);
 // Refuses two endpoints of one router if one of them calls the port of the other. Broadcasts are allowed: other
 // machines hear them too.

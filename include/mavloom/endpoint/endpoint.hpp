@@ -14,16 +14,12 @@
 #include <vector>
 
 #include "mavloom/base/result.hpp"
+#include "mavloom/dialect/filter.hpp"
 #include "mavloom/dialect/terms.hpp"
+#include "mavloom/endpoint/schemes.hpp"
 #include "mavloom/route/choices.hpp"
 
 namespace mavloom::endpoint {
-
-enum class Scheme : std::uint8_t { udpin, udpout, udpbcast, udpmcast, tcpin, tcpout, serial, shm, tlog };
-
-[[nodiscard]] std::string_view scheme_name(Scheme scheme) noexcept;
-// True if endpoints of this scheme have a fixed far side and contact it first. False if peers or clients contact them.
-[[nodiscard]] bool sends_first(Scheme scheme) noexcept;
 
 struct HostPort {
     std::string host;  // a name, IPv4, or IPv6 without brackets
@@ -31,16 +27,7 @@ struct HostPort {
     friend bool operator==(const HostPort&, const HostPort&) = default;
 };
 
-// Terms of in_allow=, in_block=, out_allow= and out_block=: sys:N, comp:N, and message names or ids. A dialect
-// resolves the names later.
-struct FilterTerms {
-    std::vector<std::string> messages;
-    std::vector<std::uint8_t> systems;
-    std::vector<std::uint8_t> components;
-    [[nodiscard]] bool empty() const noexcept { return messages.empty() && systems.empty() && components.empty(); }
-    friend bool operator==(const FilterTerms&, const FilterTerms&) = default;
-};
-
+using dialect::FilterTerms;
 using dialect::RateTerm;
 
 using route::GroupMode;
@@ -69,9 +56,12 @@ struct EndpointOptions {
     std::string iface;
     std::optional<std::uint8_t> ttl;
     bool low_latency = false;
-    // udpin, udpbcast: peers get everything from their first datagram on, although its source address may be forged.
-    bool trusted = false;
-    // A vehicle that is alive on another link is not learned here (learn=first).
+    // Endpoints that listen: whether their peers rank as own links, and get everything from their first datagram on,
+    // although its source address may be forged. Default: those on this machine do.
+    std::optional<bool> trusted;
+    // sign_all=true: also signs frames that own links brought, although nobody has verified them.
+    bool signs_own = false;
+    // A vehicle that another stranger has is not learned here (learn=first).
     bool learns_first = false;
     bool required = false;
     // udpin: other sockets with this option may bind the same port. The newest of them receives.
@@ -85,15 +75,29 @@ struct EndpointOptions {
     std::string flow = "none";
     bool from_oldest = false;      // shm: oldest records first
     std::optional<bool> lossless;  // shm; empty: the command decides
-    bool foreign = false;          // shm source: also rings of users who are not trusted
+    // wsin: web pages that may connect, as in "https://app.example.com"; "*": all.
+    std::vector<std::string> origins;
+    bool foreign = false;  // shm source: also rings of users who are not trusted
     friend bool operator==(const EndpointOptions&, const EndpointOptions&) = default;
 };
 
 struct Endpoint {
     Scheme scheme = Scheme::udpin;
-    HostPort address;  // udp*, tcp*
-    std::string path;  // serial device, tlog file, ring name
+    HostPort address;  // udp*, tcp*, ws*
+    // Serial device, tlog file, ring name; ws*: the path with its slash, or nothing for "/".
+    std::string path;
     EndpointOptions options;
+
+    [[nodiscard]] const SchemeRow& row() const noexcept { return row_of(scheme); }
+    [[nodiscard]] bool has_address() const noexcept { return endpoint::has_address(row()); }
+    [[nodiscard]] bool is_ring() const noexcept { return row().form == Form::ring; }
+    [[nodiscard]] bool is_recording() const noexcept { return row().form == Form::recording; }
+    // True if peers or clients contact the endpoint.
+    [[nodiscard]] bool listens() const noexcept { return row().side == Side::listens; }
+    // True if it contacts the far side at its address.
+    [[nodiscard]] bool calls() const noexcept { return has_address() && row().side == Side::calls; }
+    // True if each client of the endpoint has a connection of its own.
+    [[nodiscard]] bool accepts_clients() const noexcept { return listens() && row().carrier != Carrier::udp; }
 
     // The name that messages and tables show: `options.name`, or else scheme://host:port or scheme://path.
     [[nodiscard]] std::string label() const;
@@ -102,8 +106,10 @@ struct Endpoint {
 
 [[nodiscard]] std::string_view group_mode_name(GroupMode mode) noexcept;
 
-// Returns the error text for shm://NAME as an endpoint of a router. The text states which option to use instead.
-[[nodiscard]] std::string ring_is_no_endpoint(const Endpoint& endpoint);
+// The schemes of one side, as in "udpin://, tcpin:// or wsin://".
+[[nodiscard]] std::string schemes_text(Side side);
+// "udpin://HOST:PORT", "serial:///dev/NAME", "shm://NAME".
+[[nodiscard]] std::string form_of(const SchemeRow& row);
 
 // True if the path ends like the name of a recording: FLIGHT.tlog, FLIGHT.TLOG, or a renamed FLIGHT.tlog.1.
 [[nodiscard]] bool is_recording_path(std::string_view path) noexcept;
@@ -114,6 +120,9 @@ struct Endpoint {
 // Parses "udpin://0.0.0.0:14550?idle=2" and the other forms of the grammar, including pymavlink's. Errors are
 // `usage`; they quote the text, say what is wrong and suggest a spelling.
 [[nodiscard]] SetupResult<Endpoint> parse_endpoint(std::string_view text);
+// Parses all. The text of an error begins with `option`, unless that is empty.
+[[nodiscard]] SetupResult<std::vector<Endpoint>> parse_endpoints(std::span<const std::string> texts,
+                                                                 std::string_view option = {});
 
 // Sets one option from a URL's query or a configuration key. `parse_endpoint` uses it too.
 [[nodiscard]] SetupResult<void> set_endpoint_option(Endpoint& endpoint, std::string_view key, std::string_view value);

@@ -19,18 +19,8 @@
 
 namespace mavloom::endpoint {
 
-using SchemeSet = std::uint16_t;  // bit n stands for the scheme with enumerator value n
-
-[[nodiscard]] constexpr SchemeSet set_of(Scheme scheme) noexcept {
-    return static_cast<SchemeSet>(1u << static_cast<unsigned>(scheme));
-}
-
-inline constexpr SchemeSet udp_schemes = set_of(Scheme::udpin) | set_of(Scheme::udpout) | set_of(Scheme::udpbcast) |
-                                         set_of(Scheme::udpmcast);
-inline constexpr SchemeSet tcp_schemes = set_of(Scheme::tcpin) | set_of(Scheme::tcpout);
-inline constexpr SchemeSet address_schemes = udp_schemes | tcp_schemes;
-
-[[nodiscard]] std::span<const std::string_view> scheme_names() noexcept;
+// The scheme of this name. The error (`usage`) suggests the nearest name, or lists all.
+[[nodiscard]] SetupResult<Scheme> parse_scheme(std::string_view name);
 
 using dialect::parse_positive;
 using mavloom::in_quotes;
@@ -59,11 +49,17 @@ struct OptionText {
 [[nodiscard]] SetupResult<std::vector<OptionText>> split_query(std::string_view query);
 [[nodiscard]] SetupResult<std::string> percent_decoded(std::string_view text);
 
+// Origins of web pages, as browsers send them, separated by commas: https://app.example.com. "*" is all.
+[[nodiscard]] SetupResult<std::vector<std::string>> parse_origins(std::string_view text);
+
 // "HOST:PORT" or "[IPv6]:PORT". Only error texts use `scheme`.
 [[nodiscard]] SetupResult<HostPort> parse_host_port(std::string_view text, std::string_view scheme);
 // A host from a URL or a `host` key. The result has no brackets. Only error texts use `scheme` and `port`.
 [[nodiscard]] SetupResult<std::string> parse_host(std::string_view text, std::string_view scheme, std::string_view port);
 [[nodiscard]] SetupResult<std::uint16_t> parse_port(std::string_view text);
+// The address at which a router or simulator serves metrics: a numeric one, because no name is looked up.
+[[nodiscard]] SetupResult<HostPort> parse_server_address(std::string_view text);
+[[nodiscard]] SetupResult<void> check_server_address(const HostPort& address);
 // Checks that the scheme can use this address. For example, 0.0.0.0 is not a destination, and a multicast group needs
 // udpmcast.
 [[nodiscard]] SetupResult<void> check_address(Scheme scheme, const HostPort& address);
@@ -91,6 +87,8 @@ SetupResult<void> put(SetupResult<T> parsed, Target& target) {
 [[nodiscard]] SetupResult<bool> parse_bool(std::string_view text);
 
 [[nodiscard]] SetupResult<FilterTerms> parse_filter(std::string_view text);
+// "1" or "1/1": a system, or a component of it.
+[[nodiscard]] SetupResult<FilterTerms> parse_sender(std::string_view text);
 [[nodiscard]] SetupResult<std::vector<RateTerm>> parse_rates(std::string_view text);
 
 }  // namespace mavloom::endpoint

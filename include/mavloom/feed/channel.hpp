@@ -19,7 +19,7 @@
 #include <tuple>
 #include <vector>
 
-#include "mavloom/feed/filter.hpp"
+#include "mavloom/dialect/filter.hpp"
 #include "mavloom/feed/frame_batch.hpp"
 #include "mavloom/feed/frame_ring.hpp"
 #include "mavloom/feed/link_names.hpp"
@@ -55,8 +55,8 @@ public:
     [[nodiscard]] std::size_t peers() const noexcept { return peers_.load(std::memory_order_relaxed); }
 
     // Returns a copy of the newest frame that matches: see NewestFrames.
-    [[nodiscard]] std::optional<NewestFrames::Entry> latest(const Filter& filter,
-                                                            const std::optional<Instance>& instance,
+    [[nodiscard]] std::optional<NewestFrames::Entry> latest(const dialect::Filter& filter,
+                                                            const std::optional<message::Instance>& instance,
                                                             MonoTime not_before) const;
     // The number of frames that `latest` cannot return, because NewestFrames was full.
     [[nodiscard]] std::uint64_t not_kept() const;
@@ -79,8 +79,8 @@ public:
     // Sets the name of a ring's link. Such a link is not a peer: nothing can be sent to it.
     void name_link(LinkId link, std::string_view name) { names_->add(link, std::string(name)); }
     void forget_link(LinkId link, std::span<const wire::SequenceStats> losses);
-    // Calls Recorder::look_after of each recorder. Call it once a second.
-    void look_after_recorders();
+    // Calls Recorder::maintain of each recorder. Call it once a second.
+    void maintain_recorders();
     // Wakes readers that wait for frames that arrived since the last call.
     void publish();
     // Ends the channel. Readers get no more frames, not even those that are still in the buffer.
@@ -99,10 +99,10 @@ private:
     friend class ChannelReader;
 
     // These limits bound the memory that forged sources and ids can use.
-    static constexpr std::size_t most_losses = 4096, most_bad_ids = 1024;
+    static constexpr std::size_t max_losses = 4096, max_bad_ids = 1024;
 
     // Call these with mutex_ held.
-    void look_for_room();
+    void notify_of_room();
     void end_hold(const ChannelReader* reader);
 
     const std::shared_ptr<const dialect::Dialect> dialect_;
@@ -132,7 +132,7 @@ private:
 class ChannelReader {
 public:
     // The reader starts at the next frame that arrives.
-    ChannelReader(std::shared_ptr<Channel> channel, Filter filter);
+    ChannelReader(std::shared_ptr<Channel> channel, dialect::Filter filter);
     ~ChannelReader();
     ChannelReader(const ChannelReader&) = delete;
     ChannelReader& operator=(const ChannelReader&) = delete;
@@ -163,10 +163,10 @@ public:
 private:
     friend class Channel;
     void signal() noexcept;
-    static constexpr std::size_t most_looked_at = 4096;  // frames in one call, with the mutex held
+    static constexpr std::size_t max_examined = 4096;  // frames in one call, with the mutex held
 
     const std::shared_ptr<Channel> channel_;
-    const Filter filter_;
+    const dialect::Filter filter_;
     // Guarded by the channel's mutex:
     FrameRing::Position at_;
     std::uint64_t missed_ = 0;

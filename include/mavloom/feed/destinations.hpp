@@ -68,13 +68,15 @@ public:
     // True if there are no files and no frame was sent to any peer.
     [[nodiscard]] bool reached_no_destination() const;
 
-    // Calls RotatingWriter::look_after of each file, and reports files that were removed to `on_notice`. Call it at
+    using OnNotice = std::function<void(std::string_view)>;
+    // Calls RotatingWriter::maintain of each file, and reports files that were removed to `on_notice`. Call it at
     // least once a second.
-    void look_after_files(MonoTime now, const std::function<void(std::string_view)>& on_notice);
+    void maintain_files(MonoTime now, const OnNotice& on_notice);
     // Whether a file could not be written. The command must then end.
     [[nodiscard]] bool failed() const noexcept { return failure_.has_value(); }
-    // Writes what the files still buffer and closes them. Returns the first error of any file, including earlier ones.
-    [[nodiscard]] SetupResult<void> close();
+    // Writes what the files still buffer and closes them. Reports files that were removed to `on_notice`. Returns the
+    // first error of any file, including earlier ones.
+    [[nodiscard]] SetupResult<void> close(const OnNotice& on_notice);
 
 private:
     struct Output {
@@ -87,6 +89,8 @@ private:
     [[nodiscard]] SetupResult<void> add_link(const endpoint::Endpoint& endpoint);
     [[nodiscard]] SetupResult<void> add_file(const endpoint::Endpoint& endpoint, const OnFile& on_file);
     void keep(SetupResult<void> result);
+    void report_removed(const record::RotatingWriter& file, SetupResult<std::filesystem::path> removed,
+                        const OnNotice& on_notice);
 
     link::Links* links_;
     std::vector<Output> outputs_;

@@ -28,7 +28,7 @@ public:
         std::uint64_t byte = 0, frame = 0;
     };
 
-    static constexpr std::size_t max_capacity = std::size_t{1} << 36;
+    static constexpr std::size_t max_capacity = std::size_t{1} << (sizeof(std::size_t) == 8 ? 36 : 30);
 
     // Rounds the capacity up to a power of two, at least 64 KiB. It must not exceed max_capacity.
     explicit FrameRing(std::size_t capacity_bytes)

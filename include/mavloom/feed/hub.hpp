@@ -73,6 +73,8 @@ public:
     // endpoints are served meanwhile.
     EndpointStats close(link::EndpointId endpoint);
     [[nodiscard]] EndpointStats stats(link::EndpointId endpoint);
+    // Why no frame was heard on the endpoint, and what to check.
+    [[nodiscard]] std::string silence_reason(link::EndpointId endpoint);
     // Queues a copy of the frame for every peer of the endpoint. Waits while too many frames are queued. Returns false
     // if the loop thread has ended.
     bool send(link::EndpointId endpoint, const wire::FrameView& frame);

@@ -15,10 +15,10 @@ namespace mavloom::feed {
 class LinkNames {
 public:
     // How many closed links keep their names.
-    static constexpr std::size_t most_gone = 65'536;
+    static constexpr std::size_t max_gone = 65'536;
 
     void add(LinkId link, std::string name);
-    // Notes that the link is closed. Its name stays for frames that still refer to it, until `most_gone` more links
+    // Notes that the link is closed. Its name stays for frames that still refer to it, until `max_gone` more links
     // have closed.
     void gone(LinkId link);
     // Empty for a link that has no name.

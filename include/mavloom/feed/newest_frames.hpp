@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "mavloom/base/clock.hpp"
-#include "mavloom/feed/filter.hpp"
+#include "mavloom/dialect/filter.hpp"
 #include "mavloom/feed/frame_ring.hpp"
-#include "mavloom/feed/instance.hpp"
+#include "mavloom/message/instance.hpp"
 
 namespace mavloom::feed {
 
@@ -31,7 +31,7 @@ public:
     struct Key {
         std::uint32_t id = 0;
         Source source;
-        Instance instance;
+        message::Instance instance;
         friend auto operator<=>(const Key&, const Key&) = default;
     };
 
@@ -42,7 +42,7 @@ public:
     void put(const Key& key, const FrameRing::Head& head, const wire::FrameView& frame, MonoTime now);
     // Returns the newest frame that matches the filter and `instance` and arrived at `not_before` or later; null if
     // there is none. Valid until the next `put`.
-    [[nodiscard]] const Entry* find(const Filter& filter, const std::optional<Instance>& instance,
+    [[nodiscard]] const Entry* find(const dialect::Filter& filter, const std::optional<message::Instance>& instance,
                                     MonoTime not_before) const;
     [[nodiscard]] bool has(MessageId id) const;
     // Frames that were not kept because the table was full.

@@ -63,8 +63,8 @@ public:
 private:
     static constexpr std::size_t frames_a_turn = 1024;  // from recordings and rings
     static constexpr std::chrono::seconds longest_flush{5}, longest_turn{1};
-    static constexpr std::chrono::milliseconds look_for_room{1};  // how often a full queue is checked for room
-    static constexpr std::chrono::seconds look_interval{1};
+    static constexpr std::chrono::milliseconds room_poll_interval{1};  // how often a full queue is checked for room
+    static constexpr std::chrono::seconds maintain_interval{1};
 
     void on_frame(const link::RxFrame& rx) override;
     void on_link_up(LinkId link, link::EndpointId endpoint, std::string_view name) override {
@@ -79,7 +79,7 @@ private:
 
     void turn(MonoTime end);
     void watch_sources(MonoTime now);
-    void look_after(MonoTime now);
+    void maintain(MonoTime now);
     void wait_for_peers();
     [[nodiscard]] std::size_t room() const;
     [[nodiscard]] RelayOutcome finish();
@@ -90,7 +90,7 @@ private:
     RelayHandler& handler_;
     Signing signing_;
     link::SilenceWatch silence_;  // of the sources
-    MonoTime look_due_{};
+    MonoTime maintain_due_{};
     std::uint64_t unheard_answers_ = 0;
     bool has_started_ = false;  // every destination had a peer
     bool has_waited_ = false;

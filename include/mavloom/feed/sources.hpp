@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,19 +49,24 @@ public:
                                                     double default_speed = record::Pacer::max_speed,
                                                     Nanoseconds skip = {});
 
-    // Functions for one ring. `ring` is the id that `add_ring` returned.
-    // - `remove_ring` closes the ring and its inlet; do not call it inside a callback.
+    // The same for what is no recording: a link or a ring. `dialect` must outlive the source; null: that of the object.
+    [[nodiscard]] SetupResult<link::EndpointId> add_live(const endpoint::Endpoint& endpoint,
+                                                         const dialect::Dialect* dialect = nullptr);
+    // Closes a link, or a ring with its inlet. Do not call it inside a callback.
+    void remove(link::EndpointId live);
+
+    // Functions for one ring. `ring` is the id that `add` returned.
     // - `hold_ring` pauses reading while the consumer has no room for more frames.
     // - `inlet` returns the endpoint of the ring's inlet and opens it at the first call.
-    [[nodiscard]] SetupResult<link::EndpointId> add_ring(const endpoint::Endpoint& endpoint,
-                                                         const dialect::Dialect* dialect = nullptr);
-    void remove_ring(link::EndpointId ring);
     void hold_ring(link::EndpointId ring, bool held) noexcept;
     [[nodiscard]] SetupResult<link::EndpointId> inlet(link::EndpointId ring);
     // The ring's counters, in the same form as those of a link. `add_ring_to` adds them to `totals`, together with the
     // counts of records that were not delivered.
     [[nodiscard]] const link::LinkCounters& ring_counters(link::EndpointId ring) const noexcept;
     void add_ring_to(link::EndpointId ring, Totals& totals) const noexcept;
+
+    // The frames of all rings that were lost on the way to their writers.
+    [[nodiscard]] std::uint64_t lost_before_rings() const noexcept;
 
     struct SourceLoss {
         LinkId link;
@@ -98,6 +104,7 @@ public:
     // The error of the first recording that failed before its end; null if none failed.
     [[nodiscard]] const SetupError* error() const noexcept;
 
+    [[nodiscard]] std::span<const std::unique_ptr<ring::RingSource>> rings() const noexcept;
     [[nodiscard]] link::Links& links() noexcept { return *links_; }
     [[nodiscard]] const link::Links& links() const noexcept { return *links_; }
     void wake() noexcept { links_->wake(); }
@@ -117,14 +124,11 @@ public:
     [[nodiscard]] const std::vector<std::unique_ptr<Recording>>& recordings() const noexcept { return recordings_; }
 
 private:
-    // Ids of recordings start above all ids that Links assigns.
-    static constexpr std::uint32_t first_recording_id = 0x8000'0000;
-
     Sources(std::unique_ptr<link::Links> links, const wire::MessageTable& table, Copies copies);
     // Reads the next record of `recording`. Returns false if it skipped so much damage that links and signals must be
     // handled before it continues.
     bool advance(Recording& recording, link::LinkHandler& handler);
-    std::size_t play(link::LinkHandler& handler, std::size_t most_frames);
+    std::size_t play(link::LinkHandler& handler, std::size_t max_frames);
     [[nodiscard]] Recording* earliest() noexcept;
 
     std::unique_ptr<link::Links> links_;

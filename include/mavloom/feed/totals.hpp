@@ -16,7 +16,8 @@ struct Totals {
     std::uint64_t buffer_full = 0;  // frames dropped because the consumer was slower than `--buffer` allows
     std::uint64_t kernel_drop = 0;  // datagrams dropped by the kernel for lack of buffer space
     std::uint64_t crc_error = 0, junk_bytes = 0, unknown_flags = 0, bad_signature = 0;
-    std::uint64_t wrong_peer = 0, bad_source = 0, stray_bytes = 0, peers_refused = 0;
+    std::uint64_t wrong_peer = 0, bad_source = 0, stray_bytes = 0, peers_refused = 0, http_refused = 0;
+    std::uint64_t wrong_origin = 0, bad_handshake = 0, bad_message = 0;
     std::uint64_t lost = 0;            // frames lost on the links, from sequence gaps
     std::uint64_t damaged_places = 0;  // runs of damaged bytes in recordings
     std::uint64_t lapped = 0;          // ring records overwritten before they were read

@@ -29,50 +29,60 @@ struct LinkCounters {
     Counter refused;
     // Frames not sent to a UDP peer that was heard only once: its address may be forged (docs/design/security.md).
     Counter unconfirmed;
+    // Pieces (stage.hpp) that were dropped because queue_bytes were held already, or that were held when the link
+    // ended: frames outward; datagrams, messages or reads inward.
+    Counter held_dropped;
     void add(const LinkCounters& other) noexcept;
     // Applies a sequence tracker's update to `lost`, `late`, `duplicate`, `resync` and `untracked`.
     void add(const wire::SequenceTracker::Update& update) noexcept;
 };
 
-// One counter of a link, with its name in `ctl`, `stat`, the metrics and docs/guide/route.md.
-struct LinkCounter {
-    std::string_view name;
-    Counter LinkCounters::*word;
+struct LinkCounter : CounterRow<LinkCounters> {
     bool on_page;  // also on the counter page of a ring (docs/formats/ring.md)
 };
-inline constexpr std::array<LinkCounter, 20> link_counters{{
-    {"frames_in", &LinkCounters::frames_in, true},
-    {"bytes_in", &LinkCounters::bytes_in, true},
-    {"frames_out", &LinkCounters::frames_out, true},
-    {"bytes_out", &LinkCounters::bytes_out, true},
-    {"lost", &LinkCounters::lost, true},
-    {"late", &LinkCounters::late, false},
-    {"repeated", &LinkCounters::duplicate, false},
-    {"resync", &LinkCounters::resync, false},
-    {"untracked", &LinkCounters::untracked, false},
-    {"crc_error", &LinkCounters::crc_error, true},
-    {"junk_bytes", &LinkCounters::junk_bytes, true},
-    {"unknown_flags", &LinkCounters::unknown_flags, false},
-    {"unknown_ids", &LinkCounters::unknown_ids, false},
-    {"implausible_unknown", &LinkCounters::implausible_unknown, false},
-    {"bad_signature", &LinkCounters::bad_signature, true},
-    {"queue_bytes", &LinkCounters::queue_bytes, true},
-    {"queue_age", &LinkCounters::queue_age, true},
-    {"frames_not_sent", &LinkCounters::frames_not_sent, true},
-    {"refused", &LinkCounters::refused, true},
-    {"unconfirmed", &LinkCounters::unconfirmed, false},
+inline constexpr std::array<LinkCounter, 21> link_counters{{
+    {{"frames_in", "good frames that arrived", &LinkCounters::frames_in}, true},
+    {{"bytes_in", "bytes of the good frames that arrived", &LinkCounters::bytes_in}, true},
+    {{"frames_out", "frames that were sent", &LinkCounters::frames_out}, true},
+    {{"bytes_out", "bytes of the frames that were sent", &LinkCounters::bytes_out}, true},
+    {{"lost", "frames that the link lost, by gaps in the sequence numbers; late and repeated ones do not count",
+      &LinkCounters::lost},
+     true},
+    {{"late", "frames that arrived late, by the sequence numbers", &LinkCounters::late}, false},
+    {{"repeated", "frames that arrived twice, by the sequence numbers", &LinkCounters::duplicate}, false},
+    {{"resync", "restarts of the sequence numbers", &LinkCounters::resync}, false},
+    {{"untracked", "frames whose loss is not computed, because there are too many senders", &LinkCounters::untracked},
+     false},
+    {{"crc_error", "frames with a wrong checksum", &LinkCounters::crc_error}, true},
+    {{"junk_bytes", "bytes between frames", &LinkCounters::junk_bytes}, true},
+    {{"unknown_flags", "frames with unknown incompatibility flags", &LinkCounters::unknown_flags}, false},
+    {{"unknown_ids", "frames whose message is not defined; frames_in counts them too", &LinkCounters::unknown_ids},
+     false},
+    {{"implausible_unknown", "bytes that looked like a frame without definition, but were not accepted as one",
+      &LinkCounters::implausible_unknown},
+     false},
+    {{"bad_signature", "frames that verify= dropped", &LinkCounters::bad_signature}, true},
+    {{"queue_bytes", "frames dropped because the queue was full", &LinkCounters::queue_bytes}, true},
+    {{"queue_age", "frames dropped because they were queued for too long", &LinkCounters::queue_age}, true},
+    {{"frames_not_sent", "frames that the kernel did not send", &LinkCounters::frames_not_sent}, true},
+    {{"refused", "frames sent to a closed UDP port", &LinkCounters::refused}, true},
+    {{"unconfirmed", "frames not sent to a UDP peer that was heard only once", &LinkCounters::unconfirmed}, false},
+    {{"held_dropped", "pieces that link faults had to hold, dropped for lack of room or at the end of the link",
+      &LinkCounters::held_dropped},
+     false},
 }};
 static_assert(sizeof(LinkCounters) == link_counters.size() * sizeof(Counter), "each counter needs a row");
 
 // Counters of an endpoint as a whole rather than of one peer.
 struct EndpointCounters {
-    Counter kernel_drop;  // from SO_MEMINFO; updated by `refresh_kernel_drops()`
+    Counter kernel_drop;  // from SO_MEMINFO; updated by `refresh_counters()`
     Counter wrong_peer;   // udpout: datagrams from another address
     // Datagrams whose source can be no peer: port 0, a broadcast or multicast address, or one of the process's own.
     Counter bad_source;
     // Bytes of datagrams that came from unknown senders and held no valid frame (with verify=: no correctly signed
     // frame).
     Counter stray_bytes;
+    Counter long_datagrams;  // that arrived, of more than 1472 bytes: Ethernet splits these (MTU 1500)
     // New peers turned away, for one of two reasons (docs/guide/queues.md). Either max_peers is reached and no peer may
     // be evicted, or too many new addresses send at once.
     Counter peers_refused;
@@ -80,6 +90,9 @@ struct EndpointCounters {
     Counter peers_evicted;    // peers that were heard once or were idle, evicted for new ones
     Counter peers_displaced;  // active peers that were evicted for new ones (docs/guide/queues.md)
     Counter http_refused;     // tcpin: HTTP and TLS clients, which were disconnected
+    // wsin: handshakes of web pages that origin= does not list, other refused handshakes, and WebSockets that ended
+    // because of a message that is no MAVLink: text, too long, in too many fragments, or against the protocol.
+    Counter wrong_origin, bad_handshake, bad_message;
     // Datagrams that the kernel rejected, or for which ICMP reported a closed port.
     Counter send_errors;
     Counter reconnects;
@@ -90,23 +103,24 @@ struct EndpointCounters {
     Counter gone_queued;  // frames still queued when their link ended
 };
 
-// One counter of an endpoint, with its name. `gone` and `gone_queued` are shown separately.
-struct EndpointCounter {
-    std::string_view name;
-    Counter EndpointCounters::*word;
-};
-inline constexpr std::array<EndpointCounter, 11> endpoint_counters{{
-    {"kernel_drop", &EndpointCounters::kernel_drop},
-    {"wrong_peer", &EndpointCounters::wrong_peer},
-    {"bad_source", &EndpointCounters::bad_source},
-    {"stray_bytes", &EndpointCounters::stray_bytes},
-    {"peers_refused", &EndpointCounters::peers_refused},
-    {"peers_limited", &EndpointCounters::peers_limited},
-    {"peers_evicted", &EndpointCounters::peers_evicted},
-    {"peers_displaced", &EndpointCounters::peers_displaced},
-    {"http_refused", &EndpointCounters::http_refused},
-    {"send_errors", &EndpointCounters::send_errors},
-    {"reconnects", &EndpointCounters::reconnects},
+// `gone` and `gone_queued` are shown separately.
+inline constexpr std::array<CounterRow<EndpointCounters>, 15> endpoint_counters{{
+    {"kernel_drop", "datagrams that the kernel dropped because the receive buffer was full",
+     &EndpointCounters::kernel_drop},
+    {"wrong_peer", "datagrams from an address other than the destination", &EndpointCounters::wrong_peer},
+    {"bad_source", "datagrams whose source address cannot belong to a peer", &EndpointCounters::bad_source},
+    {"stray_bytes", "bytes of datagrams from unknown addresses without a valid frame", &EndpointCounters::stray_bytes},
+    {"long_datagrams", "datagrams of more than 1472 bytes, which Ethernet splits", &EndpointCounters::long_datagrams},
+    {"peers_refused", "newcomers that were refused", &EndpointCounters::peers_refused},
+    {"peers_limited", "newcomers that tried again while too many did", &EndpointCounters::peers_limited},
+    {"peers_evicted", "silent peers that made room for a newcomer", &EndpointCounters::peers_evicted},
+    {"peers_displaced", "active peers that made room for a newcomer", &EndpointCounters::peers_displaced},
+    {"http_refused", "TCP clients that spoke HTTP or TLS", &EndpointCounters::http_refused},
+    {"wrong_origin", "WebSockets of web pages that origin= does not list", &EndpointCounters::wrong_origin},
+    {"bad_handshake", "connections without a good WebSocket handshake", &EndpointCounters::bad_handshake},
+    {"bad_message", "WebSockets that ended because of a message that cannot be MAVLink", &EndpointCounters::bad_message},
+    {"send_errors", "datagrams that met a closed port or that the kernel did not send", &EndpointCounters::send_errors},
+    {"reconnects", "connections and devices that were opened again", &EndpointCounters::reconnects},
 }};
 static_assert(sizeof(EndpointCounters) == (endpoint_counters.size() + 1) * sizeof(Counter) + sizeof(LinkCounters),
               "each counter needs a row");

@@ -23,10 +23,12 @@
 
 #include "mavloom/base/clock.hpp"
 #include "mavloom/base/ids.hpp"
+#include "mavloom/base/rank.hpp"
 #include "mavloom/base/result.hpp"
 #include "mavloom/endpoint/checks.hpp"
 #include "mavloom/endpoint/endpoint.hpp"
 #include "mavloom/link/counters.hpp"
+#include "mavloom/link/stage.hpp"
 #include "mavloom/wire/frame.hpp"
 #include "mavloom/wire/message_table.hpp"
 #include "mavloom/wire/sequence.hpp"
@@ -39,6 +41,21 @@ namespace mavloom::link {
 
 using EndpointId = Id<struct EndpointTag, std::uint32_t>;
 
+// The sequence numbers heard on one link, and its loss counters.
+struct Loss {
+    // For endpoint::RoutingOptions::by_owner: the owner of the links counts each frame that is no echo. Links counts
+    // the others itself. Returns a reference that is valid until the next call.
+    const wire::SequenceTracker::Update& count(const wire::FrameView& frame, const wire::MessageInfo* info) {
+        const auto& update = tracker.update(frame, info);
+        if (update.verdict != wire::SequenceTracker::Verdict::good) [[unlikely]]
+            counters.add(update);
+        return update;
+    }
+
+    LinkCounters& counters;
+    wire::SequenceTracker tracker{};
+};
+
 struct RxFrame {
     wire::FrameView frame;  // valid during the call
     // Null: the dialect has no definition for this id.
@@ -47,14 +64,16 @@ struct RxFrame {
     EndpointId endpoint;
     // The kernel's receive time. For tlog sources: the time in the recording.
     WallTime time{};
-    // How this frame changed the link's loss counters; valid during the call, never null. If the owner counts loss
-    // (`count_loss`), this is an update without changes.
+    // How this frame changed the link's loss counters; valid during the call, never null. If the owner counts loss, an
+    // update without changes.
     const wire::SequenceTracker::Update* sequence = &wire::no_loss;
     // From a ring: the verdict that its writer recorded for the frame (ring/frames.hpp).
     std::uint8_t ring_verdict = 0;
     // The frame's signature is good, but another endpoint has heard the frame before. A sender without the key may have
     // replayed it here.
     bool is_repeated = false;
+    Rank rank = Rank::own;  // of the link
+    Loss* loss = nullptr;   // of the link; null for rings and recordings
 };
 
 class LinkHandler {
@@ -79,6 +98,7 @@ struct LinkInfo {
     // A unique name: the endpoint's label, followed by the peer's "#HOST:PORT" if the endpoint can have several peers.
     std::string name;
     bool up = false;
+    Rank rank = Rank::own;  // docs/guide/routing.md, "Trust"
     const LinkCounters* counters = nullptr;
 };
 
@@ -109,19 +129,18 @@ public:
     // Queues a whole frame for these links. Returns the number of links that queued it. Links that are gone or down are
     // skipped.
     virtual std::size_t send(std::span<const LinkId> links, const wire::FrameView& frame) = 0;
-    // Queues a frame whose sender was not verified. The link sends it when no frames of `send` are queued, and it uses
-    // none of their room. It is never signed. Returns how many of the links that queued it belong to an endpoint with
-    // `sign=`.
-    virtual std::size_t send_unverified(std::span<const LinkId> links, const wire::FrameView& frame) = 0;
-    // For endpoint::RoutingOptions::by_owner: updates the loss counters of the link on which the current frame arrived.
-    // Returns a reference that is valid until the next call.
-    virtual const wire::SequenceTracker::Update& count_loss(const RxFrame& rx) = 0;
+    // Queues a frame that a link of this rank brought. A link sends frames of strangers when no others are queued, and
+    // they use none of the others' room. Links with `sign=` sign verified frames, and with `sign_all=true` own ones
+    // too. Returns how many links with `sign=` queued the frame unsigned.
+    virtual std::size_t forward(std::span<const LinkId> links, const wire::FrameView& frame, Rank from) = 0;
     // The clock reading that the current turn uses.
     [[nodiscard]] virtual MonoTime now() const noexcept = 0;
     // A link's counters in constant time; null if the link is gone.
     [[nodiscard]] virtual const LinkCounters* counters(LinkId link) const noexcept = 0;
     // Empty if the link is gone.
     [[nodiscard]] virtual std::string_view link_name(LinkId link) const = 0;
+    // `stranger` if the link is gone.
+    [[nodiscard]] virtual Rank rank(LinkId link) const noexcept = 0;
 };
 
 namespace detail {
@@ -139,10 +158,14 @@ public:
     // Numbers new links from `last` + 1 instead of 1. Call it before the first endpoint is added.
     void count_from(LinkId last) noexcept;
 
+    // Return ids that no link or endpoint here has, or will have: for sources that are read beside these links.
+    [[nodiscard]] LinkId take_link_id() noexcept;
+    [[nodiscard]] EndpointId take_endpoint_id();
+
     // In a group, a fast link may deliver a sender's newer signed frames before a slow link delivers older ones. The
     // older ones are still accepted for a while: at least a third of this time, at most all of it. A caller that
     // detects duplicates by their bytes must remember frames for longer than this.
-    static constexpr Nanoseconds longest_late = std::chrono::milliseconds{1800};
+    static constexpr Nanoseconds max_late = std::chrono::milliseconds{1800};
 
     // Opens the endpoint. Local steps (bind, listen) happen at once, and a port in use is an error. Steps that need the
     // far side (name look-up, connect) continue in the background if they take long. With `required=true` the call
@@ -178,6 +201,12 @@ public:
     // if the link is gone or is the only one that its endpoint can have.
     // Must not be called inside a callback; on_link_down is not called for this link.
     bool close(LinkId link);
+    // Put stages (stage.hpp) at the border of an endpoint's links, present and future ones, or of one link, in place of
+    // earlier ones. An empty function, or empty chains, remove them. Pieces that the earlier stages hold pass on at the
+    // next turn. Return false if the endpoint or link is gone, or belongs to a ring: an inlet, or shm://.
+    // Must not be called inside a callback.
+    bool set_stages(EndpointId endpoint, CreateStages create);
+    bool set_stages(LinkId link, Stages stages);
     // True if a key file of `sign=` or `verify=` now holds a different key from the one in use. False while one of the
     // files cannot be read.
     [[nodiscard]] bool has_other_keys(EndpointId endpoint) const;
@@ -195,12 +224,12 @@ public:
     // Queue a frame for one link, and for every active link of an endpoint.
     std::size_t send(LinkId link, const wire::FrameView& frame);
     std::size_t send(EndpointId endpoint, const wire::FrameView& frame);
-    std::size_t send_unverified(std::span<const LinkId> links, const wire::FrameView& frame) override;
-    const wire::SequenceTracker::Update& count_loss(const RxFrame& rx) override;
+    std::size_t forward(std::span<const LinkId> links, const wire::FrameView& frame, Rank from) override;
     [[nodiscard]] MonoTime now() const noexcept override;
-    // True while frames are queued that the kernel has not accepted yet.
+    // True while frames are queued, or held by stages, that the kernel has not accepted yet.
     [[nodiscard]] bool pending() const;
-    // Bytes queued for an endpoint's links. A source that reads a file can pause instead of overflowing a queue.
+    // Bytes that are queued for an endpoint's links, or held by their stages. A source that reads a file can pause
+    // instead of overflowing a queue.
     [[nodiscard]] std::size_t queued_bytes(EndpointId endpoint) const;
     // The same for one link, in constant time; 0 if the link is gone.
     [[nodiscard]] std::size_t queued_bytes(LinkId link) const noexcept;
@@ -208,8 +237,9 @@ public:
     // Wakes `turn`. Callable from any thread and from signal handlers.
     void wake() noexcept;
 
-    // Reads SO_MEMINFO of every UDP socket into `kernel_drop`. Call it before taking a snapshot and at the end.
-    void refresh_kernel_drops();
+    // Reads the counters that the kernel or a transport keeps, such as `kernel_drop` from SO_MEMINFO. Call it before
+    // taking a snapshot and at the end.
+    void refresh_counters();
 
     // The links that exist now. A link's `counters` stay valid until its on_link_down has returned.
     [[nodiscard]] std::vector<LinkInfo> links() const;
@@ -222,6 +252,7 @@ public:
     // Loss per source on a link. Valid until the next turn; empty if the link is gone.
     [[nodiscard]] std::span<const wire::SequenceStats> sources(LinkId link) const noexcept;
     [[nodiscard]] std::string_view link_name(LinkId link) const override;
+    [[nodiscard]] Rank rank(LinkId link) const noexcept override;
 
 private:
     Links(std::unique_ptr<detail::Core> core, endpoint::RoutingOptions routing) noexcept;

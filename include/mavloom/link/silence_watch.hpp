@@ -26,7 +26,7 @@ public:
     void remove(EndpointId endpoint);
     void on_link_up(LinkId link, EndpointId endpoint, MonoTime now);
     // `counters` are those of the link; null if they are gone. An endpoint is heard, too, if its link came and went
-    // between two looks.
+    // between two polls.
     void on_link_down(LinkId link, const LinkCounters* counters);
 
     struct Silent {
@@ -37,7 +37,7 @@ public:
     using CountersOf = std::function<const LinkCounters*(LinkId)>;
     // Returns what to report now: each endpoint once that was silent for 5 s. An endpoint to which nothing was sent is
     // reported a second time if it then sends frames for 5 s and still hears nothing. Call it about once a second.
-    [[nodiscard]] std::vector<Silent> look(const CountersOf& counters_of, MonoTime now);
+    [[nodiscard]] std::vector<Silent> poll(const CountersOf& counters_of, MonoTime now);
 
 private:
     struct Watched {
@@ -46,8 +46,8 @@ private:
         bool calls = false;                // the far side may answer only what it hears
         std::vector<LinkId> links{};       // those that are up, the newest one last
         MonoTime since = MonoTime::max();  // the start of the silence
-        MonoTime sent_since = MonoTime::max();  // the first look that found a frame sent, and none newly refused
-        std::uint64_t refused = 0;              // at the last look
+        MonoTime sent_since = MonoTime::max();  // the first poll that found a frame sent, and none newly refused
+        std::uint64_t refused = 0;              // at the last poll
         bool is_reported = false;
     };
     // Whether to report the endpoint now. `link` is the newest one; null if none is up.
@@ -56,10 +56,12 @@ private:
     std::vector<Watched> watched_;
 };
 
-// The report text, for example "px4: nothing heard for 5 s; ...". It suggests what to check, based on the counters of
-// the endpoint (`info`) and of its link. `link` is null if no link is up.
+// Returns what arrived instead of frames, or what to check if nothing did, based on the counters of the endpoint
+// (`info`) and of its link. `link` is null if no link is up.
+[[nodiscard]] std::string silence_reason(const EndpointInfo& info, const LinkCounters* link);
+// The report text, for example "px4: nothing heard for 5 s; ...", with the reason.
 [[nodiscard]] std::string silence_text(const EndpointInfo& info, const LinkCounters* link);
-// The texts of a look.
-[[nodiscard]] std::vector<std::string> look_for_silence(SilenceWatch& watch, const Links& links, MonoTime now);
+// Polls, and returns the texts.
+[[nodiscard]] std::vector<std::string> poll_silence(SilenceWatch& watch, const Links& links, MonoTime now);
 
 }  // namespace mavloom::link

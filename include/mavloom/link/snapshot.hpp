@@ -17,8 +17,17 @@ namespace mavloom::link {
 struct NamedCount {
     std::string_view name;
     std::uint64_t value;
+    std::string_view help{};  // one line, for the metrics
 };
 
+// The counters that a table lists, in its order.
+template <class Counters>
+[[nodiscard]] std::vector<NamedCount> counts_in(const Counters& counters, const auto& table) {
+    std::vector<NamedCount> all;
+    all.reserve(table.size());
+    for (const auto& row : table) all.push_back({row.name, (counters.*row.word).value(), row.help});
+    return all;
+}
 [[nodiscard]] std::vector<NamedCount> counts_of(const LinkCounters& counters);
 [[nodiscard]] std::vector<NamedCount> counts_of(const EndpointCounters& counters);
 
@@ -36,6 +45,7 @@ struct Snapshot {
         EndpointId endpoint;
         std::string name;
         bool up;
+        Rank rank;
         std::vector<NamedCount> counts;
         std::vector<wire::SequenceStats> sources;
     };

@@ -16,6 +16,7 @@
 
 #include "mavloom/base/clock.hpp"
 #include "mavloom/dialect/dialect.hpp"
+#include "mavloom/message/view.hpp"
 #include "mavloom/wire/frame.hpp"
 
 namespace mavloom::message {
@@ -69,6 +70,18 @@ private:
 // Adds units and enum names (A|B for flags), and labels the MAV_CMD parameters of COMMAND_LONG, COMMAND_INT,
 // MISSION_ITEM and MISSION_ITEM_INT. `dialect` is used to look up the enums of command parameters.
 void append_text(TextBuffer& out, const Received& received, const dialect::Dialect& dialect);
+
+// One field, as append_text writes it: "param1(Radius)", and "5 m".
+void append_field_label(TextBuffer& out, const MessageView& view, const dialect::Field& field,
+                        const dialect::Dialect& dialect);
+void append_field_value(TextBuffer& out, const MessageView& view, const dialect::Field& field,
+                        const dialect::Dialect& dialect);
+// An element of an array, with its units.
+void append_element(TextBuffer& out, const MessageView& view, const dialect::Field& field, std::size_t index);
+// False for text, and for bytes that are printed in hexadecimal digits.
+[[nodiscard]] bool has_elements(const dialect::Field& field) noexcept;
+// The number in the units that are printed; NaN if the sender marked it as invalid.
+[[nodiscard]] double scaled_number(const MessageView& view, const dialect::Field& field, std::size_t index) noexcept;
 
 // CSV of one message type (RFC 4180). The header row is time_us,link,sys,comp,seq,FIELD…; arrays are
 // FIELD[0],FIELD[1]…. Each frame is one row; a frame without definition adds nothing.

@@ -26,7 +26,8 @@ struct FlightMode {
     std::uint32_t number = 0;   // HEARTBEAT.custom_mode
     std::string_view name;      // the name that is printed: for PX4 as in QGroundControl, for ArduPilot its own
     std::string_view others{};  // other programs' names, separated by '|'. Case and the characters " _-.:" do not
-                                // matter: AUTO.LOITER stands for auto_loiter and auto:loiter, too.
+                                // matter: AUTO.LOITER stands for auto_loiter and auto:loiter, too. Which PX4 mode
+                                // is which of ArduPilot's: as in MAVSDK.
 };
 
 [[nodiscard]] constexpr std::uint32_t px4_mode_number(std::uint32_t main, std::uint32_t sub = 0) noexcept {
@@ -36,18 +37,18 @@ struct FlightMode {
 // clang-format off
 inline constexpr auto px4_flight_modes = std::to_array<FlightMode>({
     {px4_mode_number(1), "Manual"},
-    {px4_mode_number(2), "Altitude", "ALTCTL"},
-    {px4_mode_number(3), "Position", "POSCTL"},
+    {px4_mode_number(2), "Altitude", "ALTCTL|ALT_HOLD|ALTITUDE_HOLD"},
+    {px4_mode_number(3), "Position", "POSCTL|POSHOLD|POSITION_HOLD"},
     {px4_mode_number(3, 1), "Orbit"},
     {px4_mode_number(3, 2), "Position Slow"},
     {px4_mode_number(4, 1), "Ready", "AUTO.READY"},
     {px4_mode_number(4, 2), "Takeoff", "AUTO.TAKEOFF"},
     {px4_mode_number(4, 3), "Hold", "AUTO.LOITER|LOITER"},
-    {px4_mode_number(4, 4), "Mission", "AUTO.MISSION"},
+    {px4_mode_number(4, 4), "Mission", "AUTO.MISSION|AUTO"},
     {px4_mode_number(4, 5), "Return", "AUTO.RTL|RTL|RETURN_TO_LAUNCH"},
     {px4_mode_number(4, 6), "Land", "AUTO.LAND"},
     {px4_mode_number(4, 7), "Return to Groundstation", "AUTO.RTGS|RTGS"},
-    {px4_mode_number(4, 8), "Follow Target", "AUTO.FOLLOW_TARGET|FOLLOWME"},
+    {px4_mode_number(4, 8), "Follow Target", "AUTO.FOLLOW_TARGET|FOLLOWME|FOLLOW"},
     {px4_mode_number(4, 9), "Precision Landing", "AUTO.PRECLAND|PRECISION_LAND"},
     {px4_mode_number(4, 10), "VTOL Takeoff", "AUTO.VTOL_TAKEOFF"},
     {px4_mode_number(4, 11), "External 1", "EXT1"},
@@ -62,7 +63,7 @@ inline constexpr auto px4_flight_modes = std::to_array<FlightMode>({
     {px4_mode_number(4, 20), "Descend"},
     {px4_mode_number(5), "Acro"},
     {px4_mode_number(6), "Offboard"},
-    {px4_mode_number(7), "Stabilized", "STAB"},
+    {px4_mode_number(7), "Stabilized", "STAB|STABILIZE"},
     {px4_mode_number(8), "Rattitude"},
     {px4_mode_number(9), "Simple"},
     {px4_mode_number(10), "Termination"},
@@ -70,17 +71,21 @@ inline constexpr auto px4_flight_modes = std::to_array<FlightMode>({
 });
 
 inline constexpr auto copter_flight_modes = std::to_array<FlightMode>({
-    {0, "STABILIZE"}, {1, "ACRO"}, {2, "ALT_HOLD", "ALTITUDE_HOLD"}, {3, "AUTO", "MISSION"}, {4, "GUIDED"},
-    {5, "LOITER"}, {6, "RTL", "RETURN"}, {7, "CIRCLE"}, {8, "POSITION"}, {9, "LAND"}, {10, "OF_LOITER"}, {11, "DRIFT"},
-    {13, "SPORT"}, {14, "FLIP"}, {15, "AUTOTUNE"}, {16, "POSHOLD", "POSITION_HOLD"}, {17, "BRAKE"}, {18, "THROW"},
-    {19, "AVOID_ADSB"}, {20, "GUIDED_NOGPS"}, {21, "SMART_RTL"}, {22, "FLOWHOLD"}, {23, "FOLLOW"}, {24, "ZIGZAG"},
+    {0, "STABILIZE", "STABILIZED"}, {1, "ACRO"}, {2, "ALT_HOLD", "ALTITUDE_HOLD|ALTITUDE|ALTCTL"},
+    {3, "AUTO", "MISSION|AUTO.MISSION"}, {4, "GUIDED"}, {5, "LOITER", "HOLD|AUTO.LOITER"},
+    {6, "RTL", "RETURN|RETURN_TO_LAUNCH"}, {7, "CIRCLE"}, {8, "POSITION"}, {9, "LAND", "AUTO.LAND"},
+    {10, "OF_LOITER"}, {11, "DRIFT"}, {13, "SPORT"}, {14, "FLIP"}, {15, "AUTOTUNE"},
+    {16, "POSHOLD", "POSITION_HOLD|POSCTL"}, {17, "BRAKE"}, {18, "THROW"}, {19, "AVOID_ADSB"}, {20, "GUIDED_NOGPS"},
+    {21, "SMART_RTL"}, {22, "FLOWHOLD"}, {23, "FOLLOW", "FOLLOWME|FOLLOW_TARGET|AUTO.FOLLOW_TARGET"}, {24, "ZIGZAG"},
     {25, "SYSTEMID"}, {26, "AUTOROTATE"}, {27, "AUTO_RTL"}, {28, "TURTLE"}, {29, "RATE_ACRO"},
 });
 
 inline constexpr auto plane_flight_modes = std::to_array<FlightMode>({
-    {0, "MANUAL"}, {1, "CIRCLE"}, {2, "STABILIZE"}, {3, "TRAINING"}, {4, "ACRO"}, {5, "FBWA", "FLY_BY_WIRE_A"},
-    {6, "FBWB", "FLY_BY_WIRE_B"}, {7, "CRUISE"}, {8, "AUTOTUNE"}, {10, "AUTO", "MISSION"}, {11, "RTL", "RETURN"},
-    {12, "LOITER"}, {13, "TAKEOFF"}, {14, "AVOID_ADSB"}, {15, "GUIDED"}, {16, "INITIALISING", "INITIALIZING"},
+    {0, "MANUAL"}, {1, "CIRCLE"}, {2, "STABILIZE", "STABILIZED"}, {3, "TRAINING"}, {4, "ACRO"},
+    {5, "FBWA", "FLY_BY_WIRE_A"}, {6, "FBWB", "FLY_BY_WIRE_B"}, {7, "CRUISE"}, {8, "AUTOTUNE"},
+    {10, "AUTO", "MISSION|AUTO.MISSION"}, {11, "RTL", "RETURN|RETURN_TO_LAUNCH|AUTO.RTL"},
+    {12, "LOITER", "HOLD|AUTO.LOITER"}, {13, "TAKEOFF", "AUTO.TAKEOFF"}, {14, "AVOID_ADSB"}, {15, "GUIDED"},
+    {16, "INITIALISING", "INITIALIZING"},
     {17, "QSTABILIZE", "QUADPLANE_STABILIZE"}, {18, "QHOVER", "QUADPLANE_HOVER"}, {19, "QLOITER", "QUADPLANE_LOITER"},
     {20, "QLAND", "QUADPLANE_LAND"}, {21, "QRTL", "QUADPLANE_RTL"}, {22, "QAUTOTUNE", "QUADPLANE_AUTOTUNE"},
     {23, "QACRO", "QUADPLANE_ACRO"}, {24, "THERMAL"}, {25, "LOITERALTQLAND", "LOITER2QLAND|LOITER_TO_QLAND"},
@@ -88,7 +93,7 @@ inline constexpr auto plane_flight_modes = std::to_array<FlightMode>({
 });
 
 inline constexpr auto rover_flight_modes = std::to_array<FlightMode>({
-    {0, "MANUAL"}, {1, "ACRO"}, {2, "LEARNING"}, {3, "STEERING"}, {4, "HOLD"}, {5, "LOITER"}, {6, "FOLLOW"},
+    {0, "MANUAL"}, {1, "ACRO"}, {2, "LEARNING"}, {3, "STEERING"}, {4, "HOLD", "AUTO.LOITER"}, {5, "LOITER"}, {6, "FOLLOW"},
     {7, "SIMPLE"}, {8, "DOCK"}, {9, "CIRCLE"}, {10, "AUTO", "MISSION"}, {11, "RTL", "RETURN"}, {12, "SMART_RTL"},
     {15, "GUIDED"}, {16, "INITIALISING", "INITIALIZING"},
 });

@@ -65,6 +65,8 @@ public:
     [[nodiscard]] bool empty() const noexcept { return blocks_ == 0; }
     [[nodiscard]] std::size_t bytes() const noexcept { return bytes_; }
     [[nodiscard]] std::size_t blocks() const noexcept { return blocks_; }
+    // How many blocks of each class `push` and `expire` have dropped so far.
+    [[nodiscard]] const std::array<std::uint64_t, classes>& dropped() const noexcept { return dropped_; }
     // True if a stream has sent a part of the first block.
     [[nodiscard]] bool has_begun() const noexcept { return begun_ != 0; }
     // The memory that the queue has allocated, some of which it may not have touched yet.
@@ -138,6 +140,7 @@ private:
     std::array<std::size_t, classes> class_bytes_{};
     // Start of the search for the oldest block of each class: no droppable block of that class lies before it.
     std::array<std::size_t, classes> oldest_{};
+    std::array<std::uint64_t, classes> dropped_{};
 
     bool has_backlog_ = false;     // the outlet was blocked, or the queue was jammed
     std::uint8_t small_uses_ = 0;  // consecutive times that the queue ran empty and had needed little

@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,10 @@ namespace mavloom::net {
 // Returns the index of the interface `name`, which may also be its number. `not_found` lists the interfaces that exist.
 [[nodiscard]] SetupResult<std::uint32_t> interface_index(const std::string& name);
 
+// An address at which other machines reach this one: that of the interface of the default route, else of any network,
+// IPv4 first. Empty if there is none. Sends nothing.
+[[nodiscard]] std::optional<Address> address_on_network();
+
 class OwnAddresses {
 public:
     // Returns whether `address` is one of this machine's. Ignores the port.
@@ -29,8 +34,7 @@ public:
     [[nodiscard]] bool has_broadcast(const Address& address, MonoTime now);
 
 private:
-    // Addresses change over time (DHCP), so an unknown address causes the list to be read again, but at most once per
-    // interval.
+    // Addresses change over time (DHCP), so the list is read again, but at most once per interval.
     static constexpr std::chrono::seconds refresh_interval{1};
 
     [[nodiscard]] bool find(const std::vector<Address>& in, const Address& address, MonoTime now);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Finds the process that holds a port, for the error text of a failed bind. Reads /proc, which shows other users'
-// processes only to root. Stateless functions; they allocate.
+// processes only to root. Allocates.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,17 @@ enum class Transport : std::uint8_t { udp, tcp };
 // such process is visible. Takes milliseconds.
 [[nodiscard]] std::string port_holder(Transport transport, const Address& local);
 
-// The error of a bind() that failed with `err`, with the holder of the port if the port is in use. `what` begins its
-// text.
-[[nodiscard]] tl::unexpected<SetupError> bind_error(std::string_view what, int err, Transport transport,
-                                                    const Address& local);
+// Completes the errors of attempts to bind a port that is in use: adds the holder of the port. Repeated attempts at the
+// same address search for the holder once. One owner.
+class BindErrors {
+public:
+    explicit BindErrors(Transport transport) : transport_(transport) {}
+    [[nodiscard]] tl::unexpected<SetupError> complete(SetupError error, const Address& local);
+
+private:
+    Transport transport_;
+    Address searched_;  // at the last search
+    std::string holder_;
+};
 
 }  // namespace mavloom::net

@@ -53,6 +53,10 @@ private:
 // are left, so that no further client may be accepted. `any`: any open descriptor of the process.
 [[nodiscard]] bool few_descriptors_left(int any) noexcept;
 
+// Sets what streams have, for a stream that was made elsewhere: no delay, keepalive, and at most so many bytes that
+// wait in the kernel, where they cannot expire.
+void set_stream_options(int fd, int unsent_bytes) noexcept;
+
 class TcpListener {
 public:
     TcpListener() noexcept = default;

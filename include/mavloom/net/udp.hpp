@@ -94,7 +94,6 @@ struct UdpOptions {
     // the socket receives nothing else.
     std::optional<Address> group;
     std::uint32_t group_interface = 0;  // interface for multicast; 0: chosen by the routing table
-    bool names_holder = true;           // the error of a port in use names who holds it, which takes milliseconds
 };
 
 class UdpSocket {

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -26,9 +25,6 @@ struct TrafficRow {
     WallTime first{}, last{};
     Nanoseconds shortest_gap{}, longest_gap{};  // both 0 before the second frame
 
-    // The first bytes of the newest HEARTBEAT, for message::heartbeat_mode: custom_mode, type, autopilot, base_mode.
-    std::array<std::uint8_t, 7> heartbeat{};
-
     // A point in time, and the frame count at that time.
     struct Mark {
         WallTime time{};
@@ -44,6 +40,28 @@ struct TrafficRow {
     // s old, the rate is at most 1 divided by its age in seconds.
     [[nodiscard]] double recent_rate_hz(WallTime now) const noexcept;
     [[nodiscard]] Nanoseconds mean_gap() const noexcept;
+
+    // A row before its first frame. Each frame is counted; before that, the gap of each but the first.
+    [[nodiscard]] static TrafficRow begin(LinkId link, Source source, MessageId id, WallTime time) noexcept {
+        const Mark mark{time, 1};
+        return {.link = link, .source = source, .id = id, .first = time, .older = mark, .newer = mark};
+    }
+    void note_gap(WallTime time) noexcept {
+        const auto gap = time - last;
+        shortest_gap = count == 1 ? gap : std::min(shortest_gap, gap);
+        longest_gap = count == 1 ? gap : std::max(longest_gap, gap);
+        const auto age = time - newer.time;
+        if (age >= rate_window || age < Nanoseconds{}) [[unlikely]]
+            move_marks({time, count + 1});
+    }
+    void count_frame(std::size_t size, WallTime time) noexcept {
+        last = time;
+        ++count;
+        bytes += size;
+    }
+
+private:
+    void move_marks(Mark now) noexcept;
 };
 
 class TrafficTable {
@@ -51,8 +69,6 @@ public:
     static constexpr std::size_t max_rows = 32'768;
 
     void add(LinkId link, const wire::FrameView& frame, WallTime time);
-    // Keeps the start of a HEARTBEAT that was added.
-    void note_heartbeat(LinkId link, const wire::FrameView& frame) noexcept;
     // Removes the rows of all links for which `is_there(LinkId)` returns false.
     template <class IsThere>
     void forget_links_unless(IsThere&& is_there) {

@@ -63,7 +63,7 @@ private:
     [[nodiscard]] std::size_t to_end(std::uint64_t position) const noexcept {
         return capacity_ - (position & (capacity_ - 1));
     }
-    void look_at_head() noexcept;
+    void load_head() noexcept;
 
     std::uint8_t* const memory_;
     const std::size_t capacity_;

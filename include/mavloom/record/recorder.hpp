@@ -26,6 +26,13 @@ struct RecorderCounters {
     Counter queue_full;     // frames that did not fit into the queue, because the disk was slow, full or missing
     Counter write_error;    // frames lost to other errors of the disk, or still unwritten at the end
 };
+inline constexpr std::array<CounterRow<RecorderCounters>, 4> recorder_counters{{
+    {"frames", "frames in the file", &RecorderCounters::frames},
+    {"bytes", "bytes of the frames in the file", &RecorderCounters::bytes},
+    {"queue_full", "frames that a recording lacks, because its buffer was full", &RecorderCounters::queue_full},
+    {"write_error", "frames that a recording lacks, because the disk refused them", &RecorderCounters::write_error},
+}};
+static_assert(sizeof(RecorderCounters) == recorder_counters.size() * sizeof(Counter), "each counter needs a row");
 
 class Recorder {
 public:
@@ -50,7 +57,7 @@ public:
     void publish() noexcept { queue_->publish(); }
     // Call about once a second. The writing thread then retries what the disk had no room for, and begins a new file if
     // another program removed or replaced the current one. It reports that through `Notice`.
-    void look_after() noexcept { queue_->wake(); }
+    void maintain() noexcept { queue_->wake(); }
     // Ends the recording without waiting for the disk. The writing thread writes the queued frames, closes the file and
     // then sets `finished`.
     void end() noexcept {
@@ -73,8 +80,8 @@ private:
     [[nodiscard]] SetupResult<void> wait_for_room(const FrameQueue::Entry& entry);
     void count() noexcept;
     void report(const SetupResult<void>& result);
-    [[nodiscard]] SetupResult<void> look_at_file();
-    void report_removed(const std::filesystem::path& removed);  // empty: none
+    [[nodiscard]] SetupResult<void> check_file() { return report_removed(writer_.maintain(mono_now())); }
+    [[nodiscard]] SetupResult<void> report_removed(SetupResult<std::filesystem::path> removed);  // empty path: none
 
     std::string label_;
     std::filesystem::path renamed_to_;

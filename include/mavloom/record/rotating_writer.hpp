@@ -54,12 +54,12 @@ public:
     // name, unless another file has taken it; then _2, _3, ... is appended to the stem. Returns the path of the old
     // file; empty if it is still there. If no new file can be created, a later call tries again. Until then, records
     // go to the old file if it was renamed, and to no file if it was deleted.
-    [[nodiscard]] SetupResult<std::filesystem::path> look_after(MonoTime now);
-    // Writes the buffered records and closes the file. If the file was removed, writes them to a new one.
-    [[nodiscard]] SetupResult<void> close();
-    // The path of a removed file that look_after() has not returned yet, because `make_room`, `write` or `close` found
-    // that it was gone; empty if there is none. Call it after `close`.
-    [[nodiscard]] std::filesystem::path take_left() noexcept;
+    [[nodiscard]] SetupResult<std::filesystem::path> maintain(MonoTime now);
+    // Writes the buffered records and closes the file. If the file was removed, writes them to a new one. Returns the
+    // path of a removed file that maintain() has not returned; empty if there is none.
+    [[nodiscard]] SetupResult<std::filesystem::path> close();
+    // The text that reports a path, as maintain() or close() just returned it, to a user.
+    [[nodiscard]] std::string removal_notice(const std::filesystem::path& removed) const;
 
     // The path given to `create`.
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
@@ -83,6 +83,7 @@ private:
     [[nodiscard]] bool is_deleted() const noexcept;
     // Begins a new file if the open one was deleted.
     [[nodiscard]] SetupResult<void> leave_deleted();
+    [[nodiscard]] SetupResult<void> leave_at_the_end();
     [[nodiscard]] SetupResult<void> begin_again();
     [[nodiscard]] SetupResult<void> end_segment();
     [[nodiscard]] SetupResult<void> continue_in(TlogWriter next);
@@ -92,9 +93,9 @@ private:
     std::filesystem::path path_;
     Rotation rotation_;
     std::optional<TlogWriter> writer_;
-    std::filesystem::path left_;         // a removed file that look_after() has not reported yet
+    std::filesystem::path left_;         // a removed file that was not returned yet
     std::optional<SetupError> no_file_;  // why there is no new file yet in place of the deleted one
-    MonoTime look_due_{};
+    MonoTime check_due_{};
     WallTime begin_{};  // the time of the open segment's first frame
     std::uint64_t segments_ = 0;
     struct Sums {
@@ -104,9 +105,5 @@ private:
     SetupResult<void> closed_segment_;  // how the last segment was closed, until `write` reports it
     bool closed_ = false;               // records that the last segment still buffers are lost
 };
-
-// Returns the text that reports a removed file to a user. `next` is the file that continues the recording; empty if the
-// next frame begins it.
-[[nodiscard]] std::string removal_notice(const std::filesystem::path& removed, const std::filesystem::path& next);
 
 }  // namespace mavloom::record

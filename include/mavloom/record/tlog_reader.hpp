@@ -42,14 +42,14 @@ public:
         damage,       // the byte limit was reached without a wanted record; call again
     };
     // Returns the next record; its views are valid until the next call. For a pipe or device, it waits only for the
-    // bytes that it needs to judge the record. After `most_damage` bytes without a record it returns Stop::damage, so
+    // bytes that it needs to judge the record. After `max_damage` bytes without a record it returns Stop::damage, so
     // that a badly damaged file does not block its caller.
-    [[nodiscard]] Result<Record, Stop> next(std::uint64_t most_damage = ~std::uint64_t{0});
+    [[nodiscard]] Result<Record, Stop> next(std::uint64_t max_damage = ~std::uint64_t{0});
     // Returns the next record of one message. It is faster than `next`: while records follow each other without a gap,
     // it skips other known messages without checking their checksums. Where the sequence breaks, it goes back and
     // examines the records that it had just skipped. It does not count damage within records that it skipped.
-    // After `most_bytes` without a record of the message it returns Stop::damage.
-    [[nodiscard]] Result<Record, Stop> next_of(MessageId id, std::uint64_t most_bytes = ~std::uint64_t{0});
+    // After `max_bytes` without a record of the message it returns Stop::damage.
+    [[nodiscard]] Result<Record, Stop> next_of(MessageId id, std::uint64_t max_bytes = ~std::uint64_t{0});
     [[nodiscard]] const SetupError& error() const noexcept { return *error_; }
     // Waits for data after Stop::nothing_yet; see File::wait.
     [[nodiscard]] bool wait(std::chrono::milliseconds limit) const noexcept { return file_.wait(limit); }

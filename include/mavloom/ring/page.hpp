@@ -36,10 +36,10 @@ struct OwnCount {
 
 class RingPage {
 public:
-    static constexpr std::size_t most_rows = 256;  // links that get counters of their own: the busiest ones
+    static constexpr std::size_t max_rows = 256;  // links that get counters of their own: the busiest ones
     // Number of closed links whose names stay, because the ring still holds their records.
-    static constexpr std::size_t most_gone = 1024;
-    static constexpr std::size_t most_own = 24;
+    static constexpr std::size_t max_gone = 1024;
+    static constexpr std::size_t max_own_counts = 24;
 
     [[nodiscard]] static SetupResult<RingPage> create(const std::string& ring, unsigned mode);
 
@@ -53,7 +53,7 @@ public:
         std::uint64_t records = 0, dropped = 0;
     };
     // Copies the current counters into the page. `inlet`: the endpoint that is the ring's inlet, the socket through
-    // which readers of the ring send frames. `own`: at most `most_own` counts, the same ones in each call.
+    // which readers of the ring send frames. `own`: at most `max_own_counts` counts, the same ones in each call.
     void refresh(const std::vector<link::LinkInfo>& links, const std::vector<link::EndpointInfo>& endpoints,
                  std::optional<link::EndpointId> inlet, const OfRing& ring, std::span<const OwnCount> own = {});
     // See CounterPage::set_aside().
@@ -63,15 +63,19 @@ public:
 
 private:
     using Words = std::array<Counter*, paged_counters.size()>;
+    struct Row {
+        Words words;
+        Counter* up;
+    };
 
     explicit RingPage(shm::CounterPage page);
     [[nodiscard]] Words add_words(std::string_view before, shm::CounterType type, std::optional<LinkId> link);
     void choose_rows(const std::vector<const link::LinkInfo*>& busiest);
     void add_row(LinkId link);
-    void remove_row(std::map<LinkId, Words>::iterator row);
+    void remove_row(std::map<LinkId, Row>::iterator row);
 
     shm::CounterPage page_;
-    std::map<LinkId, Words> rows_;
+    std::map<LinkId, Row> rows_;
     std::deque<LinkId> gone_;  // the link that closed first comes first
     Words others_{};
     std::vector<Counter*> own_;

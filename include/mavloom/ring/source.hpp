@@ -22,15 +22,6 @@
 
 namespace mavloom::ring {
 
-// Allocates ids for rings and their links. They are larger than all ids from Links and from recordings.
-class RingLinkIds {
-public:
-    [[nodiscard]] std::uint32_t next() noexcept { return next_++; }
-
-private:
-    std::uint32_t next_ = 0xC000'0000;
-};
-
 // Records of a ring that were not delivered, by reason.
 struct RingLosses {
     std::uint64_t lapped = 0;       // overwritten before they were read
@@ -42,10 +33,10 @@ struct RingLosses {
 
 class RingSource {
 public:
-    // `send` uses `links`, with the queue rules of `dialect` if it is given. `table`, `ids`, `links` and `dialect` must
-    // outlive the object.
-    RingSource(const endpoint::Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids,
-               link::Links& links, Copies copies, const dialect::Dialect* dialect = nullptr);
+    // The ids come from `links`. `send` uses it too, with the queue rules of `dialect` if it is given. `table`, `links`
+    // and `dialect` must outlive the object.
+    RingSource(const endpoint::Endpoint& endpoint, const wire::MessageTable& table, link::Links& links, Copies copies,
+               const dialect::Dialect* dialect = nullptr);
     RingSource(const RingSource&) = delete;
     RingSource& operator=(const RingSource&) = delete;
     ~RingSource();
@@ -83,6 +74,8 @@ public:
         return known == by_name_.end() ? std::span<const wire::SequenceStats>{} : known->second->tracker.sources();
     }
     [[nodiscard]] const link::LinkCounters& counters() const noexcept { return counters_; }
+    // It has a writer, as far as is known.
+    [[nodiscard]] bool is_there() const noexcept { return last_notice_ == Notice::nothing; }
 
     [[nodiscard]] link::EndpointId id() const noexcept { return id_; }
     [[nodiscard]] const endpoint::Endpoint& endpoint() const noexcept { return endpoint_; }
@@ -121,19 +114,18 @@ private:
     void forget_longest_silent(link::LinkHandler& handler);
     [[nodiscard]] std::string name_of(LinkId in_ring);
     [[nodiscard]] bool read_names();
-    void look_for_names();
+    void poll_names();
     [[nodiscard]] bool is_own(const std::string& name) const;
 
     endpoint::Endpoint endpoint_;
     link::EndpointId id_;
     const wire::MessageTable& table_;
-    RingLinkIds& ids_;
     link::Links& links_;
     Copies wanted_copies_;
     const dialect::Dialect* dialect_;
     shm::RingFollower follower_;
     Notice last_notice_ = Notice::nothing;
-    MonoTime next_look_{};  // when to look again at a ring that is missing or damaged
+    MonoTime next_poll_{};  // when to look again at a ring that is missing or damaged
     bool more_ = false;     // the last turn ended because it had no more room
     bool awaited_ = false;  // the ring was absent: records overwritten before the first read count as lost
     // The ring and writer to which the link numbers belong.

@@ -18,7 +18,6 @@ public:
     // `links` and `table` must outlive the object.
     RingSources(link::Links& links, const wire::MessageTable& table, Copies copies);
 
-    [[nodiscard]] static SetupResult<void> check(const endpoint::Endpoint& endpoint);
     [[nodiscard]] SetupResult<link::EndpointId> add(const endpoint::Endpoint& endpoint,
                                                     const dialect::Dialect* dialect = nullptr);
     void remove(link::EndpointId ring);
@@ -49,7 +48,6 @@ private:
     std::vector<std::unique_ptr<RingSource>> rings_;
     std::vector<std::uint64_t> watched_;  // for each ring, the value of opened() that the waiter watches; 0: none
     std::size_t first_ = 0;
-    RingLinkIds link_ids_;
 };
 
 }  // namespace mavloom::ring

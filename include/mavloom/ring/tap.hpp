@@ -27,8 +27,8 @@ namespace mavloom::ring {
 class RingTap {
 public:
     // Creates the ring, or continues one whose writer was killed. If the file under the ring's name is damaged, is not
-    // a ring or belongs to another user, renames that file. The same applies to the page's file. The first look_after()
-    // reports what was renamed. Same errors as RingWriter::open. A thread of the tap calls `ready` when look_after()
+    // a ring or belongs to another user, renames that file. The same applies to the page's file. The first maintain()
+    // reports what was renamed. Same errors as RingWriter::open. A thread of the tap calls `ready` when maintain()
     // has something to do.
     [[nodiscard]] static SetupResult<std::unique_ptr<RingTap>> open(
         const std::string& name, shm::RingOptions options, std::function<void()> ready = [] {});
@@ -71,7 +71,7 @@ public:
 
     // Call about once a second. Recreates a removed ring or page; the ring is created on another thread. Returns
     // notices for the log.
-    [[nodiscard]] std::vector<std::string> look_after(const link::Links& links);
+    [[nodiscard]] std::vector<std::string> maintain(const link::Links& links);
 
 private:
     static constexpr std::chrono::milliseconds page_interval{250};

@@ -7,6 +7,7 @@
 // options change, never for a frame. Its memory is bounded, no matter what arrives: see the constants of Engine.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -18,9 +19,10 @@
 #include "mavloom/base/clock.hpp"
 #include "mavloom/base/counter.hpp"
 #include "mavloom/base/ids.hpp"
+#include "mavloom/base/rank.hpp"
+#include "mavloom/dialect/filter.hpp"
 #include "mavloom/dialect/rates.hpp"
 #include "mavloom/route/choices.hpp"
-#include "mavloom/route/filter.hpp"
 #include "mavloom/wire/frame.hpp"
 #include "mavloom/wire/message_table.hpp"
 
@@ -43,7 +45,7 @@ struct Options {
 };
 
 struct LinkPolicy {
-    Filter in{}, out{};
+    dialect::Filter in{}, out{};
     GroupId group{};
     GroupMode group_mode = GroupMode::all;  // the first link of a group sets the mode of the group
     std::uint32_t group_order = 0;          // `primary` prefers the lowest; ties go to the lowest link id
@@ -55,9 +57,8 @@ struct LinkPolicy {
     // Frames from a private link go to taps only. A private link gets only frames whose target system and component
     // were both heard on it.
     bool is_private = false;
-    // Every frame from this link has a verified signature. Its sources outrank those of other links.
-    bool is_verified = false;
-    // A vehicle that is alive on another link is not learned here until it falls silent there.
+    Rank rank = Rank::own;
+    // For a stranger: a vehicle that another stranger has is not learned here until it falls silent there.
     bool learns_first = false;
     dialect::Rates max_rate{};
     std::optional<std::uint64_t> max_bytes_per_s{};
@@ -122,6 +123,23 @@ struct LinkCounters {
     Counter out_filtered, out_rate_limited, out_bytes_limited;
 };
 
+inline constexpr std::array<CounterRow<LinkCounters>, 13> link_verdicts{{
+    {"forwarded", "frames that were sent to at least one other link", &LinkCounters::forwarded},
+    {"nowhere", "frames that no other link was to get", &LinkCounters::nowhere},
+    {"filtered", "frames that in_ filters dropped", &LinkCounters::filtered},
+    {"rate_limited", "frames over a rate limit", &LinkCounters::rate_limited},
+    {"duplicate", "frames that had arrived before", &LinkCounters::duplicate},
+    {"echo", "frames that came back on a link they were sent to", &LinkCounters::echo},
+    {"unknown_target", "frames for a target that was not heard on any link", &LinkCounters::unknown_target},
+    {"consumed", "frames that were for the program itself", &LinkCounters::consumed},
+    {"tap", "frames that a tap sent", &LinkCounters::tap},
+    {"private_link", "frames that a private link sent", &LinkCounters::private_link},
+    {"out_filtered", "frames that out_ filters kept from this link", &LinkCounters::out_filtered},
+    {"out_rate_limited", "frames that max_rate kept from this link", &LinkCounters::out_rate_limited},
+    {"out_bytes_limited", "frames that max_bytes kept from this link", &LinkCounters::out_bytes_limited},
+}};
+static_assert(sizeof(LinkCounters) == (link_verdicts.size() + 1) * sizeof(Counter), "each counter needs a row");
+
 struct EngineCounters {
     Counter unknown_link;
     Counter routes_learned;  // new, or learned again after they were forgotten
@@ -129,9 +147,22 @@ struct EngineCounters {
     Counter routes_evicted;   // the stalest route of a full link; if the table is full, of the link with most routes
     Counter recent_evicted;   // remembered frames evicted too early, so that their echoes go undetected
     Counter reboots;          // restarts of a system, see note_reboot
-    Counter route_conflicts;  // vehicles learned on a link while they were alive on another
+    Counter route_conflicts;  // vehicles that a stranger's link claimed for 5 s while another link had them
     Counter duplicate_ids;    // sources heard alternately on links that do not share a group
 };
+
+inline constexpr std::array<CounterRow<EngineCounters>, 8> engine_counters{{
+    {"unknown_link", "frames that arrived on links beyond the limit", &EngineCounters::unknown_link},
+    {"routes_learned", "routes that are new, or new again", &EngineCounters::routes_learned},
+    {"routes_expired", "routes that were silent for route_timeout", &EngineCounters::routes_expired},
+    {"routes_evicted", "routes that were evicted because a table was full", &EngineCounters::routes_evicted},
+    {"recent_evicted", "remembered frames that were evicted early", &EngineCounters::recent_evicted},
+    {"reboots", "systems whose clock went back", &EngineCounters::reboots},
+    {"duplicate_ids", "sources heard alternately on links that do not share a group", &EngineCounters::duplicate_ids},
+    {"route_conflicts", "vehicles that a stranger's link claimed for 5 s while another link had them",
+     &EngineCounters::route_conflicts},
+}};
+static_assert(sizeof(EngineCounters) == engine_counters.size() * sizeof(Counter), "each counter needs a row");
 
 struct RouteInfo {
     LinkId link;
@@ -147,11 +178,13 @@ struct DuplicateId {
     LinkId first, second;
 };
 
-// A vehicle that was learned on a second link while it was alive on the first: redundant links without `group`, or a
-// sender that claims to be the vehicle.
+// A vehicle that a stranger's link, the second, claimed for 5 s while the first had it: redundant links without
+// `group`, a sender that claims to be the vehicle, or a link that the user has not declared as trusted.
 struct RouteConflict {
     SystemId system;
     LinkId first, second;
+    bool is_believed = false;  // the vehicle was learned on the second link
+    friend bool operator==(const RouteConflict&, const RouteConflict&) = default;
 };
 
 struct UnknownTargetInfo {
@@ -166,15 +199,15 @@ public:
     static constexpr std::size_t max_routes_per_link = 2048;  // enough for 250 systems of 5 components: 1,250
     static constexpr std::size_t max_duplicate_ids = 256;
     static constexpr std::size_t max_route_conflicts = 256;
-    // A vehicle is alive on a link for this long after its autopilot was heard there.
+    // A link has a vehicle for this long after its autopilot was heard there.
     static constexpr Nanoseconds alive_for = std::chrono::seconds{2};
-    // A vehicle that is alive on one link is learned on another only after it was heard there for this long, without a
-    // gap of `alive_for`.
+    // A vehicle that one stranger has is learned on the link of another only after it was heard there for this long,
+    // without a gap of `alive_for`.
     static constexpr Nanoseconds consistent_for = std::chrono::seconds{5};
-    // A source is present on a link if it was heard there at least twice, this far apart, and last within `present_for`
-    // before now.
-    static constexpr Nanoseconds repeated_after = std::chrono::milliseconds{500};
+    // A source is present on a link for this long after it was heard there.
     static constexpr Nanoseconds present_for = std::chrono::seconds{3};
+    // A source is present on a second link only after it was heard there twice, this far apart.
+    static constexpr Nanoseconds repeated_after = std::chrono::milliseconds{500};
     // How long the engine detects echoes and copies of a frame. It remembers frames longer if `dedup` is longer.
     static constexpr Nanoseconds echo_window = std::chrono::seconds{2};
     // A group's link is silent after this long without a frame. `best` and `primary` then choose another link.
@@ -184,7 +217,7 @@ public:
     // exceed it: at 20 HEARTBEATs a second, and links whose delays differ by 0.7 s, 14 HEARTBEATs are in flight. `best`
     // may count those as lost.
     static constexpr std::uint32_t best_switch_margin = 5;
-    static constexpr std::uint32_t most_heartbeats = 256;  // at this count, all links of the group halve their counts
+    static constexpr std::uint32_t max_heartbeats = 256;  // at this count, all links of the group halve their counts
     // A HEARTBEAT that arrives again on the same link within this time is a duplicated datagram and counts once.
     static constexpr Nanoseconds doubled_within = std::chrono::milliseconds{500};
 
@@ -194,15 +227,17 @@ public:
     Engine& operator=(Engine&&) noexcept;
     ~Engine();
 
-    // Returns false if there are max_links links already, or if the id is 0 or in use. `address` identifies the
-    // far end, and is the same when the far end reconnects; 0 if unknown. A vehicle that returns from the same address
-    // is learned at once.
-    // `counts`: the counters of an earlier link with this id, which continue.
-    bool add_link(LinkId link, const LinkPolicy& policy, std::uint64_t address = 0, const LinkCounters& counts = {});
-    // Forgets the link and its routes. Ignores an unknown id.
+    // Returns false if there are max_links links already, or if the id is 0 or in use. `counts`: the counters of an
+    // earlier link with this id, which continue.
+    bool add_link(LinkId link, const LinkPolicy& policy, const LinkCounters& counts = {});
+    // Forgets the link and its routes. Ignores an unknown id. The link still has its vehicles for a moment.
     void remove_link(LinkId link);
-    // Like `remove_link`, for a link that was closed on purpose: any other link may learn its vehicles at once.
+    // Like `remove_link`, for a link that was closed on purpose: any other link may learn its vehicles at once. A link
+    // that was removed before may be closed, too.
     void close_link(LinkId link);
+    // For an endpoint that was closed on purpose (LinkPolicy::endpoint): the same for all links that it ever had.
+    // Removes none of them.
+    void close_endpoint(std::uint32_t endpoint);
     [[nodiscard]] std::size_t links() const noexcept;
     // Changes the rules. Links, routes, counters and remembered frames stay. `seed` and `recent_frames` are ignored:
     // they keep the values given to the constructor.
@@ -243,7 +278,8 @@ public:
     [[nodiscard]] std::vector<RouteInfo> routes(LinkId link, MonoTime now) const;
     // The first max_duplicate_ids duplicate ids, in order of detection. `counters().duplicate_ids` counts all.
     [[nodiscard]] std::span<const DuplicateId> duplicate_ids() const noexcept;
-    // The first max_route_conflicts conflicts, in order of detection. `counters().route_conflicts` counts all.
+    // The first max_route_conflicts conflicts, in order of detection. `counters().route_conflicts` counts all, also
+    // those that are listed already.
     [[nodiscard]] std::span<const RouteConflict> route_conflicts() const noexcept;
     // The targets of frames dropped as unknown_target, sorted by system and component. Allocates.
     [[nodiscard]] std::vector<UnknownTargetInfo> unknown_targets() const;

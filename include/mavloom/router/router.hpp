@@ -30,12 +30,15 @@ namespace mavloom::link {
 class SilenceWatch;
 }
 namespace mavloom::ring {
+class OwnPage;
 class RingTap;
-}
+struct OwnCount;
+}  // namespace mavloom::ring
 
 namespace mavloom::router {
 
 class Forwarder;
+class NewestHeartbeats;
 class Recordings;
 class RoutedEndpoints;
 class Snapshots;
@@ -71,6 +74,8 @@ public:
     // left the ring, this router continues it. `finish` and the destructor remove ring and page. Call once, before the
     // first turn. Errors are those of shm::RingWriter::open.
     [[nodiscard]] SetupResult<void> open_ring(const config::RingConfig& config);
+    // Opens a counter page of this name. Call it only if there is no ring. Errors are those of CounterPage::create.
+    [[nodiscard]] SetupResult<void> open_page(const std::string& name);
     // Opens the ring's inlet, the socket through which readers of the ring send frames. See Links::add_inlet.
     [[nodiscard]] SetupResult<void> open_inlet(const config::RingConfig& config, const std::filesystem::path& socket);
     // Removes an endpoint or recording by its label: `name=`, or else the URL without its query. If `label` is the name
@@ -113,6 +118,7 @@ public:
     // The verdicts on a link's frames, also while the link is down. Null for a link that is gone.
     [[nodiscard]] const route::LinkCounters* verdicts(LinkId link) const;
     [[nodiscard]] const observe::TrafficTable& traffic() const noexcept;
+    [[nodiscard]] const NewestHeartbeats& newest_heartbeats() const noexcept;
     // Valid until the next `add`, `remove`, `apply` or `finish`.
     [[nodiscard]] std::vector<const record::Recorder*> recorders() const;
     [[nodiscard]] std::uint64_t heartbeats_sent() const noexcept;
@@ -138,9 +144,11 @@ private:
 
     [[nodiscard]] MonoTime next_due() const noexcept;
     void handle_arrived(MonoTime end);
-    void look_after(MonoTime now);
-    void look_after_ring();
+    void maintain(MonoTime now);
+    void maintain_ring();
+    void note_turn(std::size_t frames, MonoTime now);
     void refresh_page();
+    void sum_verdicts();
     void run_posted(MonoTime now);
     void report_silence(MonoTime now);
 
@@ -148,7 +156,7 @@ private:
     MetricsDetail metrics_detail_ = MetricsDetail::systems;
     bool has_heartbeat_;  // the router has an id of its own
     Notice notice_;
-    // None of these is null, except `ring_` if there is no ring.
+    // None of these is null, except `ring_` if there is no ring, and `page_` if there is one.
     std::unique_ptr<link::Links> links_;
     std::unique_ptr<RoutedEndpoints> endpoints_;
     std::unique_ptr<Forwarder> forwarder_;
@@ -157,8 +165,10 @@ private:
     std::unique_ptr<Recordings> recordings_;
     std::unique_ptr<Snapshots> snapshots_;
     std::unique_ptr<ring::RingTap> ring_;
+    std::unique_ptr<ring::OwnPage> page_;
+    std::vector<ring::OwnCount> page_counts_;
     MonoTime started_ = mono_now();
-    MonoTime look_due_{}, work_due_{};
+    MonoTime maintain_due_{}, work_due_{};
 };
 
 }  // namespace mavloom::router

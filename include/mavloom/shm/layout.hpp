@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 
@@ -159,6 +160,7 @@ struct RingMemory {
     std::uint64_t capacity = 0;
 
     [[nodiscard]] typename Words::Word64* word(std::uint64_t position) const noexcept {
+        assert(position % record_alignment == 0);
         return data + (position & (capacity - 1)) / sizeof(std::uint64_t);
     }
     [[nodiscard]] std::uint64_t mark_distance() const noexcept { return capacity / mark_count; }

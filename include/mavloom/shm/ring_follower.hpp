@@ -26,13 +26,13 @@ public:
     [[nodiscard]] ReadResult<RingRecord> read(MonoTime deadline);
 
     // Like `read`, but does not wait; for a loop that sleeps elsewhere. The loop polls again after the time that the
-    // reader's `arm` returns, or after `look_distance` while no ring is open.
+    // reader's `arm` returns, or after `poll_interval` while no ring is open.
     [[nodiscard]] ReadResult<RingRecord> poll();
     // The reader of the open ring, valid until the next call. Null if no ring is open.
     [[nodiscard]] RingReader* reader() noexcept { return reader_ ? &*reader_ : nullptr; }
 
     // Time between two attempts to open a missing ring, or two checks of a ring without a writer.
-    static constexpr Nanoseconds look_distance = std::chrono::milliseconds(20);
+    static constexpr Nanoseconds poll_interval = std::chrono::milliseconds(20);
 
     [[nodiscard]] bool is_open() const noexcept { return reader_.has_value(); }
     // Why the last attempt to open failed. Null if it did not fail.
@@ -51,7 +51,7 @@ private:
     ReaderOptions options_;
     std::optional<RingReader> reader_;
     std::optional<SetupError> error_;
-    bool looked_ = false;
+    bool attempted_ = false;
     std::uint64_t missed_ = 0;  // of the rings that are closed
     std::uint64_t opened_ = 0;
 };

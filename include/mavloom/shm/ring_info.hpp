@@ -18,6 +18,8 @@ namespace mavloom::shm {
 
 // Returns the names of all files that look like rings, sorted. Empty if /dev/shm cannot be read.
 [[nodiscard]] std::vector<std::string> ring_names();
+// The same for counter pages.
+[[nodiscard]] std::vector<std::string> counter_page_names();
 
 struct ReaderStatus {
     unsigned slot = 0;

@@ -142,7 +142,7 @@ private:
     const std::atomic<bool>* forked_ = nullptr;  // the segment's flag
     std::optional<unsigned> slot_;
     detail::Consumer<SharedWords> consumer_;
-    MonoTime next_look_at_writer_{}, waiting_since_{}, armed_{};
+    MonoTime next_writer_check_{}, waiting_since_{}, armed_{};
 };
 
 }  // namespace mavloom::shm

@@ -25,7 +25,7 @@ public:
     using WakeWord = std::shared_ptr<const SharedWords::Word32>;
     // Beyond this number, the thread sleeps on the first rings only. The caller sees changes of the others when it
     // polls.
-    static constexpr std::size_t most_rings = 127;
+    static constexpr std::size_t max_rings = 127;
 
     // After arm(), the helper thread calls `wake` once. `wake` must not throw, and may call arm().
     explicit RingWaiter(std::function<void()> wake);

@@ -103,7 +103,7 @@ private:
     std::unique_ptr<Segment> segment_;           // empty once closed
     const std::atomic<bool>* forked_ = nullptr;  // the segment's flag
     detail::Producer<SharedWords> producer_;
-    MonoTime looked_for_dead_{};
+    MonoTime dead_checked_{};
     bool created_ = false;
 };
 

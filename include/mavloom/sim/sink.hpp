@@ -3,8 +3,6 @@
 // a counter or a list.
 #pragma once
 
-#include <cstddef>
-
 #include "mavloom/base/ids.hpp"
 #include "mavloom/wire/frame.hpp"
 
@@ -20,8 +18,8 @@ public:
     // Takes a whole frame for one link. Frames of a link leave in the order of these calls. The view is valid only
     // during the call.
     virtual void send(LinkId link, const wire::FrameView& frame) = 0;
-    // Bytes that wait for the link. Bulk transfers (parameters, files, logs) pause while it is large.
-    [[nodiscard]] virtual std::size_t queued_bytes(LinkId link) const = 0;
+    // False while much waits for the link: bulk transfers (parameters, files, logs) pause.
+    [[nodiscard]] virtual bool has_room(LinkId link) const = 0;
 };
 
 }  // namespace mavloom::sim

@@ -80,6 +80,8 @@ public:
     [[nodiscard]] SetupResult<void> disarm(bool force);
     // `altitude_m` above home.
     [[nodiscard]] SetupResult<void> take_off(double altitude_m);
+    // In degrees. Without `altitude_m`, which is above home, the altitude stays.
+    [[nodiscard]] SetupResult<void> go_to(double latitude, double longitude, std::optional<double> altitude_m);
     // A mode's name in any vocabulary of mavloom/message/modes.hpp.
     [[nodiscard]] SetupResult<void> set_mode(std::string_view name);
     [[nodiscard]] SetupResult<void> set_parameter(std::string_view name, double value);

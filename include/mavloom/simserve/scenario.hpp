@@ -39,6 +39,7 @@ struct Scenario {
     bool has_report = false;
     config::RingConfig ring{};  // without a name: no ring
     std::optional<endpoint::HostPort> metrics{};
+    config::WebConfig web{};
     std::vector<ScenarioVehicle> vehicles{};
     std::vector<SimEndpoint> endpoints{};
 

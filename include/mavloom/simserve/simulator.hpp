@@ -35,8 +35,8 @@ class LinkSink;
 class SharedMemory;
 
 struct SimEndpoint {
-    // The option `max_bytes` limits the telemetry on each of its links, summed over all vehicles. A serial endpoint
-    // without it gets half of what its baud rate carries, so that parameters get through.
+    // The option `max_bytes` limits the telemetry on each of its links in real time, summed over all vehicles. A serial
+    // endpoint without it gets half of what its baud rate carries, so that parameters get through.
     endpoint::Endpoint endpoint;
     std::optional<sim::Profile> profile{};  // empty: the profile of SimulatorOptions
     std::vector<sim::MessageRate> rates{};  // these take precedence over the rates of SimulatorOptions
@@ -97,8 +97,8 @@ public:
     [[nodiscard]] SetupResult<void> add(const SimEndpoint& endpoint);
     // Refuses an endpoint that a simulator cannot have. Opens nothing.
     [[nodiscard]] static SetupResult<void> check(const endpoint::Endpoint& endpoint);
-    // Removes an endpoint by its label. If `label` is the name of a link, closes only that link. Returns false if
-    // nothing has that name.
+    // Removes an endpoint by its label, after sending what is queued. If `label` is the name of a link, closes only it.
+    // Returns false if nothing has that name.
     bool remove(std::string_view label);
 
     // Runs one turn: waits until a vehicle is due, something arrives, or `deadline`, and handles all of it.
@@ -133,7 +133,7 @@ private:
     Simulator(const dialect::Dialect& dialect, const SimulatorOptions& options, Notice notice,
               std::unique_ptr<link::Links> links);
 
-    void look_after(MonoTime now);
+    void maintain(MonoTime now);
     void refresh_page(MonoTime now);
 
     const dialect::Dialect& dialect_;
@@ -147,7 +147,7 @@ private:
     std::unique_ptr<Fleet> fleet_;
     std::unique_ptr<Connections> connections_;
     MonoTime created_ = mono_now();
-    MonoTime look_due_{}, page_due_{};
+    MonoTime maintain_due_{}, page_due_{};
 };
 
 }  // namespace mavloom::simserve

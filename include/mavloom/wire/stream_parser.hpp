@@ -92,12 +92,12 @@ public:
 private:
     // At most one undecided frame is kept: its own bytes and, for an unknown id, one byte of look-ahead. Deciding a
     // start byte within that frame may take as many bytes again.
-    static constexpr std::size_t most_kept = max_frame_length + 1;
+    static constexpr std::size_t max_kept = max_frame_length + 1;
     static constexpr std::size_t short_chunk = 128;
     // Holds several short chunks, so that the kept bytes are rarely moved.
     static constexpr std::size_t buffer_length = 1024;
     static constexpr std::size_t slack = detail::Scanner::enough_slack;
-    static_assert(most_kept + std::max(most_kept, short_chunk) <= buffer_length);
+    static_assert(max_kept + std::max(max_kept, short_chunk) <= buffer_length);
 
     [[nodiscard]] ByteView pending() const noexcept { return {buffer_.data() + begin_, end_ - begin_}; }
 

@@ -16,14 +16,14 @@ from .._errors import CommandError, UsageError
 from .._hints import near
 from ._exchange import Peer, Protocol, wait_until
 from ._texts import Texts
-from ._turns import exclusive
+from ._exclusive import exclusive
 
 ANSWERS = ("COMMAND_ACK", "HEARTBEAT", "STATUSTEXT")
 TAKEOFF_ANSWERS = (*ANSWERS, "GLOBAL_POSITION_INT")
 ANSWER_S = 1.0  # how long one request waits for its answer
 LONGEST_ANSWER_S = 86400
 TRIES = 4
-MOST_TRIES = 256  # what the field `confirmation` can count
+MAX_TRIES = 256  # what the field `confirmation` can count
 IN_PROGRESS_S = 30.0  # how long a command in progress may report nothing
 HEARTBEATS_S = 5.0  # how long a change of mode or of arming may take to appear in heartbeats
 POSITION_S = 5.0  # how old the current position may be, and how long it may take to arrive
@@ -78,8 +78,8 @@ def command(peer: Peer, number: int, params: tuple[float, ...], timeout: float |
     timeout = ANSWER_S if timeout is None else timeout
     if not 0 < checked_number("timeout", timeout) <= LONGEST_ANSWER_S:
         raise UsageError(f"timeout: {timeout} is out of range, more than 0 to {LONGEST_ANSWER_S} s")
-    if not isinstance(tries, int) or not 1 <= tries <= MOST_TRIES:
-        raise UsageError(f"tries: {tries!r} is out of range, 1 to {MOST_TRIES}")
+    if not isinstance(tries, int) or not 1 <= tries <= MAX_TRIES:
+        raise UsageError(f"tries: {tries!r} is out of range, 1 to {MAX_TRIES}")
     protocol = acknowledged(peer, number, params, timeout, tries)
     return (yield from exclusive(peer, name_of(number), tries * timeout, protocol))
 
@@ -100,7 +100,9 @@ def acknowledged(peer: Peer, number: int, params: tuple[float, ...], timeout: fl
 
 
 def refusal(peer: Peer, number: int, result: int, texts: tuple[str, ...]) -> CommandError:
-    reason = ": ".join((result_name(result), *(["; ".join(texts)] if texts else [])))
+    reason = result_name(result)
+    if texts:
+        reason += ": " + "; ".join(texts)
     return CommandError(f"{peer}: {name_of(number)}: {reason}", result, texts)
 
 

@@ -17,7 +17,7 @@ from .._enums import entry_name
 from .._errors import MissionError, UsageError
 from ._commands import checked_number, known_heartbeat, number_of
 from ._exchange import Peer, Protocol, T, wait_until
-from ._turns import exclusive
+from ._exclusive import exclusive
 
 ANSWERS = ("MISSION_COUNT", "MISSION_REQUEST", "MISSION_REQUEST_INT", "MISSION_ITEM_INT", "MISSION_ACK",
            "HEARTBEAT")
@@ -29,7 +29,7 @@ GLOBAL_RELATIVE_ALT_INT = 6  # MAV_FRAME
 DEGREES = 1e7  # of latitude and longitude in x and y
 FRAMES_IN_DEGREES = frozenset({0, 3, 5, 6, 10, 11})  # MAV_FRAMEs whose x and y are latitude and longitude
 DO_JUMP = 177  # MAV_CMD; param1 is the number of an item
-MOST_ITEMS = 65534  # MISSION_COUNT counts to 65535, with the home of an ArduPilot
+MAX_ITEMS = 65534  # MISSION_COUNT counts to 65535, with the home of an ArduPilot
 
 
 def scaled(name: str, value: float, scale: float) -> int:
@@ -190,8 +190,8 @@ def checked(peer: Peer, given: Iterable[MissionItem | Message | Mapping[str, Any
     """Returns the items. Raises UsageError, before anything is sent, if one has a value that cannot be sent."""
     check_kind(peer, kind)
     items = [with_number(item_of(item)) for item in given]
-    if len(items) > MOST_ITEMS:
-        raise UsageError(f"a mission has at most {MOST_ITEMS} items, not {len(items)}")
+    if len(items) > MAX_ITEMS:
+        raise UsageError(f"a mission has at most {MAX_ITEMS} items, not {len(items)}")
     for number, item in enumerate(items):
         try:
             peer.link.dialect.encode("MISSION_ITEM_INT", seq=number, mission_type=kind, **asdict(item))

@@ -17,7 +17,7 @@ from .._enums import entry_name
 from .._errors import ParameterError, UsageError
 from ._commands import known_heartbeat
 from ._exchange import Peer, Protocol, wait_until
-from ._turns import exclusive
+from ._exclusive import exclusive
 
 if TYPE_CHECKING:
     from typing_extensions import TypeGuard
@@ -52,6 +52,13 @@ def encodes_bytewise(peer: Peer, heartbeat: Message) -> bool:
     return version is not None and bool(version["capabilities"] & ENCODES_BYTEWISE)
 
 
+def shortest(value: float) -> float:
+    """The shortest decimal number that is the same float of 32 bits: 0.15, not 0.15000000596046448."""
+    same = struct.pack("<f", value)
+    texts = (f"{value:.{digits}g}" for digits in (6, 7, 8))
+    return next((short for text in texts if struct.pack("<f", short := float(text)) == same), value)
+
+
 def decoded(message: Message, bytewise: bool) -> Value:
     kind = message["param_type"]
     value: int | float = message["param_value"]
@@ -59,6 +66,8 @@ def decoded(message: Message, bytewise: bool) -> Value:
         value = struct.unpack_from(INTEGERS[kind], message.raw("param_value"))[0]
     elif kind in INTEGERS and math.isfinite(value):
         value = int(value)
+    elif kind == REAL32:
+        value = shortest(value)
     return Value(value, kind, message["param_index"])
 
 

@@ -29,7 +29,7 @@ from ._current import NAME as _NAME
 from ._helpers import (SerialPort, all_printable, auto_detect_serial, auto_detect_serial_unix, decode_bitmask,
                        dump_message_unit_decoder, dump_message_verbose, is_printable, location, periodic_event,
                        set_close_on_exec, u_ord)
-from ._live import mavmcast, mavserial, mavtcp, mavtcpin, mavudp
+from ._live import mavmcast, mavserial, mavtcp, mavtcpin, mavudp, mavwebsocket, mavwebsocket_client
 from ._logs import mavlogfile, mavmmaplog
 from ._messages import MAVError
 from ._modes import (AP_MAV_TYPE_MODE_MAP, AP_MAV_TYPE_MODE_MAP_DEFAULT, auto_mode_flags, interpret_px4_mode,
@@ -47,7 +47,7 @@ else:
     sys.modules[_NAME] = mavlink
 # Names of pymavlink's module that have no meaning here, and what to use.
 NOT_HERE = {
-    "mavuds": _urls.REFUSED["uds"], "mavwebsocket": _urls.REFUSED["ws"], "mavwebsocket_client": _urls.REFUSED["wss"],
+    "mavuds": _urls.REFUSED["uds"],
     "mavchildexec": "start the program yourself and connect to its port",
     "MavlinkSerialPort": "send and receive SERIAL_CONTROL messages with mavlink_connection()",
     "mavexpression": "evaluate_expression() and evaluate_condition() evaluate text",
@@ -121,9 +121,9 @@ def mavlink_connection(device: str | os.PathLike[str], baud: int = 115200, sourc
     """Opens a connection or a recording.
 
     `device` is one of pymavlink's strings: "udpin:0.0.0.0:14550", "udpout:HOST:PORT", "udp:HOST:PORT" and "HOST:PORT"
-    (which bind, or send with input=False), "udpbcast:", "mcast:", "tcp:", "tcpin:", "/dev/ttyACM0",
-    "/dev/ttyACM0,57600", or the path of a recording. An endpoint of ours ("udpin://...", docs/guide/endpoints.md)
-    works as well.
+    (which bind, or send with input=False), "udpbcast:", "mcast:", "tcp:", "tcpin:", "ws:", "wsserver:",
+    "/dev/ttyACM0", "/dev/ttyACM0,57600", or the path of a recording. An endpoint of ours ("udpin://...",
+    docs/guide/endpoints.md) works as well.
 
     `udpin:` and `udpbcast:` forget a program that was silent for `udp_timeout` seconds; 0: never.
 

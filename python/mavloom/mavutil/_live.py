@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 import select
 import socket
 import sys
@@ -11,7 +12,7 @@ import time
 from collections import deque
 from typing import Any
 
-from .._errors import ClosedError, SystemFailure, UsageError
+from .._errors import ClosedError, InputError, SystemFailure, UsageError
 from .._link import Link
 from ._connection import LONGEST_WAIT_S, wait_of
 from ._services import mavfile
@@ -23,7 +24,7 @@ PYMAVLINK_GROUP = "239.255.145.50"
 FRAMES_APART = "mtu=0"  # each frame in a datagram of its own
 ENDLESS = "1000h"
 KEEP_ALL = f"queue_age={ENDLESS}&queue_bytes=64MiB"  # a full queue makes the sender wait, so nothing is dropped
-MOST_QUEUED_BYTES = 4096  # of a serial device
+MAX_QUEUED_BYTES = 4096  # of a serial device
 ROOM_PAUSE_S = 0.005
 
 
@@ -264,6 +265,37 @@ class mavtcpin(mavlive):
         super().__init__(f"tcpin://{host}:{port}", f"tcpin:{device}", source_system, source_component)
 
 
+class mavwebsocket(mavlive):
+    """A WebSocket server. It has any number of clients."""
+
+    def __init__(self, device: str, source_system: int = 255, source_component: int = 0,
+                 use_native: bool = False) -> None:
+        host, port = host_and_port(device, "WebSocket")
+        super().__init__(f"wsin://{host}:{port}", f"wsserver:{device}", source_system, source_component)
+
+
+class mavwebsocket_client(mavlive):
+    """A WebSocket to a server. It is opened again when it breaks, or if nobody listens at first. `device`: ws:HOST:PORT
+    or ws:HOST:PORT:PATH. RuntimeError: the server is no WebSocket server, or refused the path."""
+
+    def __init__(self, device: str, source_system: int = 255, source_component: int = 0,
+                 use_native: bool = False) -> None:
+        address = device.removeprefix("ws:")
+        with_path = re.fullmatch(r"(.*?:\d+):/?(.*)", address)
+        address, path = with_path.groups() if with_path else (address, "")
+        host, port = host_and_port(address, "WebSocket", "127.0.0.1")
+        super().__init__(f"wsout://{host}:{port}/{path}", device, source_system, source_component)
+
+    def _open(self, url: str) -> Link:
+        """Waits for the handshake, so that what a script sends first arrives."""
+        try:
+            return super()._open(f"{url}?required=true")
+        except InputError as error:
+            raise RuntimeError(f"WebSocket handshake failed: {error}") from None
+        except SystemFailure:
+            return super()._open(url)
+
+
 class mavserial(mavlive):
     """A serial device. It is opened again after it was unplugged. Sending waits for a slow line, as in pymavlink."""
 
@@ -282,7 +314,7 @@ class mavserial(mavlive):
         super().write(buf)
         self._room -= len(buf)
         while self._room < 0 and not self._closed:
-            self._room = MOST_QUEUED_BYTES - self.link._port.queued_bytes
+            self._room = MAX_QUEUED_BYTES - self.link._port.queued_bytes
             if self._room < 0:
                 time.sleep(ROOM_PAUSE_S)
 
@@ -311,6 +343,10 @@ def open_target(target: Target, source: tuple[int, int], options: dict[str, Any]
                       options["reconnect_delay"])
     if target.kind == "tcpin":
         return mavtcpin(target.rest, system, component, options["retries"])
+    if target.kind == "ws":
+        return mavwebsocket_client(f"ws:{target.rest}", system, component)
+    if target.kind == "wsserver":
+        return mavwebsocket(target.rest, system, component)
     if target.kind == "serial":
         return mavserial(target.rest, target.baud or options["baud"], options["autoreconnect"], system, component,
                          force_connected=options["force_connected"])

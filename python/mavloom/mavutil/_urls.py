@@ -9,14 +9,12 @@ from dataclasses import dataclass
 
 from .._errors import NotFoundError, SystemFailure, UsageError
 
-KINDS = ("udp", "udpin", "udpout", "udpbcast", "mcast", "tcp", "tcpin")
+KINDS = ("udp", "udpin", "udpout", "udpbcast", "mcast", "tcp", "tcpin", "ws", "wsserver")
 LOOPBACK = "127.0.0.1"  # of localhost: pymavlink's sockets have no IPv6
 PROGRAM = "programs are not started here: start it yourself and connect to its port"
 PROGRAM_BEGINNINGS = (b"\x7fELF", b"#!")
 REFUSED = {
-    "ws": "there is no web socket server here: use tcpin:HOST:PORT, and a web server of your own behind it",
-    "wss": "there are no web sockets here: use tcp:HOST:PORT to a bridge, such as websocat",
-    "wsserver": "there is no web socket server here: use tcpin:HOST:PORT, and a web server of your own behind it",
+    "wss": "there is no TLS here: use ws:HOST:PORT to a proxy that adds it, such as stunnel",
     "csv": "CSV files are not read here: use pymavlink's CSVReader, or pandas.read_csv()",
     "unix": "there are no Unix stream sockets here: use tcp:HOST:PORT, or a ring, shm://NAME",
     "uds": "there are no Unix stream sockets here: use tcp:HOST:PORT, or a ring, shm://NAME",

@@ -26,7 +26,7 @@ namespace {
 
 endpoint::Endpoint endpoint_of(const std::string& url) {
     auto endpoint = value_or_raise(endpoint::parse_endpoint(url));
-    if (endpoint.scheme == endpoint::Scheme::tlog)
+    if (endpoint.is_recording())
         raise_usage(fmt::format("'{}' is a recording: mavloom.read() and mavloom.columns() read it", url));
     return endpoint;
 }
@@ -124,8 +124,9 @@ public:
         check();
         const auto filter = make_filter(origin_->dialect(), type, system, component);
         const auto wanted = instance_from(instance);
-        if (wanted && filter.ids)
-            for (const auto id : *filter.ids) check_instance(*origin_->dialect().find(id), *wanted);
+        if (wanted && !type.is_none())
+            for (const auto& message : origin_->dialect().messages())
+                if (filter.admits(message.id())) check_instance(message, *wanted);
         const auto not_before = max_age.is_none() ? MonoTime::min() : mono_now() - duration_of("max_age", max_age);
         const auto found = feed_.channel->latest(filter, wanted, not_before);
         if (!found) return nb::none();
@@ -150,6 +151,13 @@ public:
         stats.missed = nb::inst_ptr<Subscription>(reader_)->missed();
         stats.hints = hints_of(origin_->dialect(), stats);
         return stats;
+    }
+
+    [[nodiscard]] std::string silence_reason() {
+        fork_.check();
+        const WithoutGil outside;
+        const std::lock_guard lock(mutex_);
+        return hub_ ? hub_->silence_reason(opened_.endpoint) : "the link is closed";
     }
 
     // Bytes of frames that were sent and not yet handed to the kernel; 0 for a closed link.
@@ -204,7 +212,7 @@ private:
         auto channel = std::make_shared<feed::Channel>(
             std::shared_ptr<const dialect::Dialect>(origin_->definitions(), &origin_->dialect()),
             origin_->shared_link_names(), buffer_bytes, !endpoint.options.verify_key_file.empty());
-        const bool is_ring = endpoint.scheme == endpoint::Scheme::shm;
+        const bool is_ring = endpoint.is_ring();
         return {origin_, std::move(channel), is_ring ? endpoint.path : std::string()};
     }
     // `make` returns the frame. It is called only if there is a peer.
@@ -295,6 +303,7 @@ void bind_link(nb::module_& module) {
         .def_prop_rw("sequence", &Port::sequence, &Port::set_sequence, nb::for_setter(nb::arg().none()),
                      nb::for_setter(nb::sig("def sequence(self, value: int, /) -> None")))
         .def_prop_ro("stats", &Port::stats)
+        .def_prop_ro("silence_reason", &Port::silence_reason)
         .def_prop_ro("queued_bytes", &Port::queued_bytes)
         .def_prop_ro("reader", &Port::reader, nb::sig("def reader(self) -> Subscription"))
         .def_prop_ro("dialect", &Port::dialect)

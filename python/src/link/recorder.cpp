@@ -10,7 +10,7 @@
 
 namespace mavloom::python {
 
-static constexpr std::size_t most_notices = 16;  // a disk may fill up again and again
+static constexpr std::size_t max_notices = 16;  // a disk may fill up again and again
 
 LinkRecorder::LinkRecorder(std::shared_ptr<feed::Channel> channel, const std::string& path)
     : channel_(std::move(channel)), notices_(std::make_shared<Notices>()) {
@@ -18,7 +18,7 @@ LinkRecorder::LinkRecorder(std::shared_ptr<feed::Channel> channel, const std::st
         const WithoutGil outside;
         return record::Recorder::create(path, path, {}, [notices = notices_](std::string_view text) {
             const std::lock_guard lock(notices->mutex);
-            if (notices->texts.size() < most_notices) notices->texts.emplace_back(text);
+            if (notices->texts.size() < max_notices) notices->texts.emplace_back(text);
         });
     }();
     recorder_ = value_or_raise(std::move(opened));

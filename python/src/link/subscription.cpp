@@ -18,7 +18,7 @@ namespace mavloom::python {
 
 static constexpr std::size_t batch_frames = 256;
 
-Subscription::Subscription(const LinkFeed& feed, feed::Filter filter)
+Subscription::Subscription(const LinkFeed& feed, dialect::Filter filter)
     : origin_(feed.origin),
       ring_name_(feed.ring_name),
       reader_(std::make_unique<feed::ChannelReader>(feed.channel, std::move(filter))) {}
@@ -29,13 +29,13 @@ Subscription::~Subscription() {
 
 // ---- messages
 
-nb::object Subscription::next(const feed::Filter& filter, const Limit& limit, bool& ended) {
+nb::object Subscription::next(const dialect::Filter& filter, const Limit& limit, bool& ended) {
     for (;;) {
         fork_.check();
         {
             const auto lock = lock_without_gil(mutex_);
             while (const auto* item = next_item()) {
-                if (filter.takes(batch_.frame(*item))) return message_of(*item);
+                if (filter.admits(batch_.frame(*item))) return message_of(*item);
                 if (is_over(limit)) return {};
             }
             if (ended_) return ended = true, nb::object();
@@ -82,7 +82,7 @@ nb::object Subscription::recv_match(const nb::object& condition, const nb::objec
     return or_closed(filter, condition, deadline_after(match_timeout(blocking, timeout)));
 }
 
-nb::object Subscription::or_closed(const feed::Filter& filter, const nb::object& condition, MonoTime deadline) {
+nb::object Subscription::or_closed(const dialect::Filter& filter, const nb::object& condition, MonoTime deadline) {
     fork_.check();
     Limit limit{deadline, {}};
     if (deadline <= mono_now()) limit.end = reader_->newest();

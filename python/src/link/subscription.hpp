@@ -27,7 +27,7 @@ struct LinkFeed {
 
 class Subscription {
 public:
-    Subscription(const LinkFeed& feed, feed::Filter filter);
+    Subscription(const LinkFeed& feed, dialect::Filter filter);
     ~Subscription();
     Subscription(const Subscription&) = delete;
     Subscription& operator=(const Subscription&) = delete;
@@ -66,8 +66,8 @@ private:
     };
 
     // Returns an invalid object if no message arrived in time. Sets `ended` if none will ever arrive.
-    nb::object next(const feed::Filter& filter, const Limit& limit, bool& ended);
-    nb::object or_closed(const feed::Filter& filter, const nb::object& condition, MonoTime deadline);
+    nb::object next(const dialect::Filter& filter, const Limit& limit, bool& ended);
+    nb::object or_closed(const dialect::Filter& filter, const nb::object& condition, MonoTime deadline);
     [[nodiscard]] bool is_past(std::uint64_t end);
 
     // Call these without the GIL; `put` with mutex_ held. A frame for which the ring has no room is put back.

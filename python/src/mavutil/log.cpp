@@ -13,7 +13,7 @@
 #include "bindings.hpp"
 #include "errors.hpp"
 #include "gil.hpp"
-#include "mavloom/feed/instance.hpp"
+#include "mavloom/message/instance.hpp"
 #include "strings.hpp"
 
 namespace mavloom::python {
@@ -60,7 +60,7 @@ bool MavutilTypes::takes(const MavutilMessage& message) const noexcept {
 namespace {
 
 constexpr std::size_t batch_entries = 512;
-constexpr std::uint64_t most_damage = 1 << 20;     // bytes to read before signals are handled
+constexpr std::uint64_t max_damage = 1 << 20;      // bytes to read before signals are handled
 constexpr std::size_t damage_at_once = 64 * 1024;  // bytes of a damaged place that are examined together
 constexpr std::size_t longest_damage = 4096;       // bytes of one BAD_DATA message
 
@@ -126,7 +126,7 @@ bool MavutilLog::fill() {
     bytes_.clear();
     next_ = 0;
     while (entries_.size() < batch_entries) {
-        const auto record = reader_->next(most_damage);
+        const auto record = reader_->next(max_damage);
         if (record) {
             add(*record);
             continue;
@@ -243,16 +243,16 @@ public:
     std::map<const dialect::Message*, std::uint64_t> counts;
 
 private:
-    static constexpr std::size_t most_instances = 4096;
+    static constexpr std::size_t max_instances = 4096;
 
     bool is_new_instance(const dialect::Message& definition, const wire::FrameView& frame) {
-        const auto* field = feed::instance_field(definition);
-        return field != nullptr && instances_.size() < most_instances &&
-               instances_.emplace(&definition, feed::instance_of(definition, *field, frame)).second;
+        const auto* field = message::instance_field(definition);
+        return field != nullptr && instances_.size() < max_instances &&
+               instances_.emplace(&definition, message::instance_of(definition, *field, frame.payload())).second;
     }
 
     const dialect::Dialect& dialect_;
-    std::set<std::pair<const dialect::Message*, feed::Instance>> instances_;
+    std::set<std::pair<const dialect::Message*, message::Instance>> instances_;
 };
 
 int percent_of(const record::TlogReader& file) {
@@ -264,7 +264,7 @@ bool add_some(record::TlogReader& file, Index& index, int percent) {
     using Stop = record::TlogReader::Stop;
     const WithoutGil outside;
     for (std::size_t read = 0; read < 65'536 && percent_of(file) <= percent; ++read) {
-        const auto record = file.next(most_damage);
+        const auto record = file.next(max_damage);
         if (record) index.add(*record);
         else if (record.error() != Stop::damage) return false;
     }

@@ -13,6 +13,7 @@
 #include "errors.hpp"
 #include "integer.hpp"
 #include "message/encode.hpp"
+#include "message/header_fields.hpp"
 #include "strings.hpp"
 
 namespace mavloom::python {
@@ -66,13 +67,6 @@ namespace {
 
 // ---- attributes
 
-std::optional<std::string_view> name_utf8(PyObject* name) noexcept {
-    Py_ssize_t size = 0;
-    const char* text = PyUnicode_AsUTF8AndSize(name, &size);
-    if (text == nullptr) return std::nullopt;
-    return std::string_view(text, static_cast<std::size_t>(size));
-}
-
 PyObject* read_field(const MavutilMessage& message, const Field& field) {
     return value_of(*message.base.definition, message.payload(), field, TextForm::ascii);
 }
@@ -125,7 +119,7 @@ PyObject* get_mavutil_attribute(PyObject* self, PyObject* name) noexcept {
     }
     if (const auto* field = find_interned(message, name)) return read_field(message, *field);
     if (PyUnicode_CHECK_INTERNED(name) == 0 && message.base.definition != nullptr) {
-        const auto wanted = name_utf8(name);
+        const auto wanted = utf8_of(name);
         if (!wanted) return nullptr;
         if (const auto* field = message.base.definition->find(*wanted)) return read_field(message, *field);
     }
@@ -137,7 +131,7 @@ PyObject* get_mavutil_attribute(PyObject* self, PyObject* name) noexcept {
 // Forgets `_text_raw` when `text` is set.
 int forget_raw(MavutilMessage& message, PyObject* name) noexcept {
     const auto* definition = message.base.definition;
-    const auto wanted = name_utf8(name);
+    const auto wanted = utf8_of(name);
     if (!wanted) return -1;
     const auto* field = definition == nullptr ? nullptr : definition->find(*wanted);
     if (field == nullptr || !field->is_text()) return 0;
@@ -230,7 +224,7 @@ nb::object packed_value(const MavutilMessage& message, const Field& field, const
     if (value.is_valid() && field.is_array() && !field.is_text()) return cut_array(value, field);
     if (!value.is_valid() || !field.is_text()) return value;
     std::optional<std::string_view> text;
-    if (PyUnicode_Check(value.ptr()) != 0) text = name_utf8(value.ptr());
+    if (PyUnicode_Check(value.ptr()) != 0) text = utf8_of(value.ptr());
     if (PyBytes_Check(value.ptr()) != 0)
         text.emplace(PyBytes_AS_STRING(value.ptr()), static_cast<std::size_t>(PyBytes_GET_SIZE(value.ptr())));
     PyErr_Clear();  // the error for text that is not UTF-8 comes from `set_fields`
@@ -367,12 +361,9 @@ auto of_frame() {
     };
 }
 
-int header_system_of(const wire::FrameView& frame) { return frame.system().value; }
-int header_component_of(const wire::FrameView& frame) { return frame.component().value; }
-int header_sequence_of(const wire::FrameView& frame) { return frame.sequence(); }
-int header_incompat_flags(const wire::FrameView& frame) { return frame.incompat_flags(); }
-int header_compat_flags(const wire::FrameView& frame) { return frame.compat_flags(); }
-int header_payload_length(const wire::FrameView& frame) { return frame.payload_length(); }
+int incompat_flags_of(const wire::FrameView& frame) { return frame.incompat_flags(); }
+int compat_flags_of(const wire::FrameView& frame) { return frame.compat_flags(); }
+int payload_length_of(const wire::FrameView& frame) { return frame.payload_length(); }
 
 double time_in_seconds(const MavutilMessage& message) {
     const auto microseconds = message.base.time_ns / 1000;  // pymavlink's times have no more
@@ -410,9 +401,9 @@ void bind_mavutil_message(nb::module_& module) {
              nb::sig("def __init__(self, dialect: Dialect, name: str | None, values: tuple[typing.Any, ...], "
                      "hides_extensions: bool) -> None"))
         .def("get_type", &mavutil_type, nb::sig("def get_type(self) -> str"), "The message's name.")
-        .def("get_srcSystem", of_frame<header_system_of>())
-        .def("get_srcComponent", of_frame<header_component_of>())
-        .def("get_seq", of_frame<header_sequence_of>())
+        .def("get_srcSystem", of_frame<system_of>())
+        .def("get_srcComponent", of_frame<component_of>())
+        .def("get_seq", of_frame<sequence_of>())
         .def("get_fieldnames", &field_list, nb::sig("def get_fieldnames(self) -> list[str]"))
         .def("to_dict", &mavutil_dict, nb::sig("def to_dict(self) -> dict[str, typing.Any]"),
              "{\"mavpackettype\": name, field: value, ...}")
@@ -429,9 +420,9 @@ void bind_mavutil_message(nb::module_& module) {
             "_frame",
             [](const MavutilMessage& m) { return bytes_of(m.base.size == 0 ? ByteView() : m.base.frame().bytes()); })
         .def_prop_ro("_frame_payload", [](const MavutilMessage& m) { return bytes_of(m.payload()); })
-        .def_prop_ro("_frame_incompat", of_frame<header_incompat_flags>())
-        .def_prop_ro("_frame_compat", of_frame<header_compat_flags>())
-        .def_prop_ro("_frame_mlen", of_frame<header_payload_length>())
+        .def_prop_ro("_frame_incompat", of_frame<incompat_flags_of>())
+        .def_prop_ro("_frame_compat", of_frame<compat_flags_of>())
+        .def_prop_ro("_frame_mlen", of_frame<payload_length_of>())
         .def_prop_ro("_timestamp", &time_in_seconds)
         .def_prop_ro("_link", [](const MavutilMessage& m) { return m.base.link; });
 

@@ -8,8 +8,8 @@
 #include "bindings.hpp"
 #include "errors.hpp"
 #include "mavloom/base/clock.hpp"
-#include "mavloom/feed/instance.hpp"
 #include "mavloom/feed/vehicle.hpp"
+#include "mavloom/message/instance.hpp"
 #include "mavloom/message/view.hpp"
 #include "mavloom/msg/gps_raw_int.hpp"
 #include "mavloom/msg/heartbeat.hpp"
@@ -99,7 +99,7 @@ void MavutilState::note_uptime(const MavutilMessage& message) {
 
 void MavutilState::add(const nb::dict& messages, const nb::object& message, const MavutilMessage& of) {
     const auto& name = of.base.origin->definitions()->names(*of.base.definition).message;
-    if (const auto* instance = feed::instance_field(*of.base.definition))
+    if (const auto* instance = message::instance_field(*of.base.definition))
         add_instance_of(messages, message, of, *instance);
     if (PyDict_SetItem(messages.ptr(), name.ptr(), message.ptr()) != 0) throw nb::python_error();
 }
@@ -118,7 +118,7 @@ void MavutilState::add_instance_of(const nb::dict& messages, const nb::object& m
     nb::object instances = previous.is_valid() ? nb::getattr(previous, instances_key_, nb::none()) : nb::none();
     if (!nb::isinstance<nb::dict>(instances)) instances = nb::dict();  // a program may set the attribute
     nb::setattr(message, instances_key_, instances);
-    if (nb::len(instances) >= static_cast<std::size_t>(most_messages) &&
+    if (nb::len(instances) >= static_cast<std::size_t>(max_messages) &&
         PyDict_Contains(instances.ptr(), value.ptr()) != 1)
         return;
     nb::dict of_message = nb::borrow<nb::dict>(instances), of_system = messages;

@@ -36,7 +36,7 @@ public:
 
 private:
     // Bounds the memory that an endless series of new instance names can use.
-    static constexpr Py_ssize_t most_messages = 4096;
+    static constexpr Py_ssize_t max_messages = 4096;
 
     void add(const nb::dict& messages, const nb::object& message, const MavutilMessage& of);
     // Messages of a radio concern all systems behind it.

@@ -65,16 +65,14 @@ void set_number(MessageBuilder& builder, const Field& field, const nb::handle& v
 }
 
 // Lone surrogates, which stand for bytes that are not UTF-8, cannot be sent as text.
-std::string_view utf8_of(const nb::handle& text) {
-    Py_ssize_t size = 0;
-    const char* utf8 = PyUnicode_AsUTF8AndSize(text.ptr(), &size);
-    if (utf8 != nullptr) return {utf8, static_cast<std::size_t>(size)};
+std::string_view utf8_or_raise(const nb::handle& text) {
+    if (const auto utf8 = utf8_of(text.ptr())) return *utf8;
     PyErr_Clear();
     raise_usage(fmt::format("{} cannot be encoded as UTF-8; pass bytes instead", escaped(nb::repr(text))));
 }
 
 void set_text(MessageBuilder& builder, const Field& field, const nb::object& value) {
-    if (PyUnicode_Check(value.ptr())) return value_or_raise(builder.set_text(field, utf8_of(value)));
+    if (PyUnicode_Check(value.ptr())) return value_or_raise(builder.set_text(field, utf8_or_raise(value)));
     if (PyObject_CheckBuffer(value.ptr()) == 0)
         refuse(builder, field, fmt::format("expected str or bytes, not {}", escaped(nb::repr(value))));
     const Buffer buffer(value);
@@ -111,7 +109,7 @@ void set_value(MessageBuilder& builder, const Field& field, const nb::object& va
     if (field.type == dialect::FieldType::char8) return set_text(builder, field, value);
     if (PyUnicode_Check(value.ptr())) {  // the name of an enum entry, A|B for flags
         if (field.enumeration == nullptr || field.is_array()) refuse(builder, field, "expected a number, not text");
-        return value_or_raise(builder.set_from_text(field, utf8_of(value)));
+        return value_or_raise(builder.set_from_text(field, utf8_or_raise(value)));
     }
     if (field.is_array()) return set_array(builder, field, value);
     if (is_real(field) && PyBytes_Check(value.ptr())) return set_real_bytes(builder, field, value);
@@ -156,7 +154,7 @@ Buffer::Buffer(const nb::object& object) {
 
 void set_fields(const dialect::Dialect& dialect, MessageBuilder& builder, const nb::kwargs& fields) {
     for (const auto& [key, value] : fields) {
-        const auto name = utf8_of(key);
+        const auto name = utf8_or_raise(key);
         const auto* field = builder.definition().find(name);
         if (field == nullptr)
             // This error suggests the nearest name.
@@ -175,7 +173,7 @@ static void set_defaults(MessageBuilder& builder) {
 MessageBuilder build(const Definitions& definitions, const nb::object& message, const nb::kwargs& fields) {
     const auto& dialect = definitions.dialect();
     if (PyUnicode_Check(message.ptr())) {
-        MessageBuilder builder(*value_or_raise(dialect.message(utf8_of(message))));
+        MessageBuilder builder(*value_or_raise(dialect.message(utf8_or_raise(message))));
         set_defaults(builder);
         set_fields(dialect, builder, fields);
         return builder;

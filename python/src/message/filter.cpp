@@ -17,29 +17,35 @@ namespace {
     throw nb::python_error();
 }
 
-MessageId id_of(const dialect::Dialect& dialect, const nb::handle& type) {
+std::string wanted_name(const nb::handle& type) {
     const nb::object name = PyType_Check(type.ptr()) ? nb::object(type.attr("__name__")) : nb::borrow(type);
     if (!PyUnicode_Check(name.ptr())) raise_no_type(type);
-    return value_or_raise(dialect.message(nb::cast<std::string>(name)))->id();
+    return nb::cast<std::string>(name);
+}
+
+std::vector<std::string> wanted_names(const nb::object& type) {
+    if (type.is_none()) return {};
+    if (PyUnicode_Check(type.ptr()) || PyType_Check(type.ptr())) return {wanted_name(type)};
+    if (PyObject_HasAttrString(type.ptr(), "__iter__") == 0) raise_no_type(type);
+    std::vector<std::string> names;
+    for (const nb::handle one : nb::iter(type)) names.push_back(wanted_name(one));
+    return names;
 }
 
 }  // namespace
 
-feed::Filter make_filter(const dialect::Dialect& dialect, const nb::object& type, const OptionalInteger& system,
-                         const OptionalInteger& component) {
-    feed::Filter filter{std::nullopt, in<std::uint8_t>("system", system), in<std::uint8_t>("component", component)};
-    if (type.is_none()) return filter;
-    auto& ids = filter.ids.emplace();
-    if (PyUnicode_Check(type.ptr()) || PyType_Check(type.ptr())) {
-        ids.push_back(id_of(dialect, type));
-    } else {
-        if (PyObject_HasAttrString(type.ptr(), "__iter__") == 0) raise_no_type(type);
-        for (const nb::handle one : nb::iter(type)) ids.push_back(id_of(dialect, one));
-    }
+dialect::Filter make_filter(const dialect::Dialect& dialect, const nb::object& type, const OptionalInteger& system,
+                            const OptionalInteger& component) {
+    dialect::FilterTerms terms{.messages = wanted_names(type)};
+    if (system) terms.systems.push_back(system->in<std::uint8_t>("system"));
+    if (component) terms.components.push_back(component->in<std::uint8_t>("component"));
+    if (terms.messages.empty() && !type.is_none()) return dialect::Filter::none();
+    dialect::Filter filter;
+    value_or_raise(filter.allow(dialect, terms));
     return filter;
 }
 
-std::optional<feed::Instance> instance_from(const nb::object& given) {
+std::optional<message::Instance> instance_from(const nb::object& given) {
     if (given.is_none()) return std::nullopt;
     if (PyUnicode_Check(given.ptr())) return nb::cast<std::string>(given);
     Integer number;
@@ -47,8 +53,8 @@ std::optional<feed::Instance> instance_from(const nb::object& given) {
     return number.in<std::int64_t>("instance");
 }
 
-void check_instance(const dialect::Message& message, const feed::Instance& instance) {
-    const auto* field = feed::instance_field(message);
+void check_instance(const dialect::Message& message, const message::Instance& instance) {
+    const auto* field = message::instance_field(message);
     if (field == nullptr) raise_usage(fmt::format("{} has no field that distinguishes instances", message.name));
     const bool has_text = field->type == dialect::FieldType::char8;
     if (has_text != std::holds_alternative<std::string>(instance))

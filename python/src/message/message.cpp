@@ -13,6 +13,7 @@
 #include "mavloom/message/format.hpp"
 #include "mavloom/ring/frames.hpp"
 #include "mavutil/message.hpp"
+#include "message/header_fields.hpp"
 #include "message/values.hpp"
 #include "strings.hpp"
 
@@ -53,13 +54,6 @@ const Field& field_of(const Message& message, std::string_view name) {
 }
 
 // ---- attributes
-
-std::optional<std::string_view> utf8_of(PyObject* name) noexcept {
-    Py_ssize_t size = 0;
-    const char* text = PyUnicode_AsUTF8AndSize(name, &size);
-    if (text == nullptr) return std::nullopt;
-    return std::string_view(text, static_cast<std::size_t>(size));
-}
 
 PyObject* read(const Message& message, const Field& field) {
     return value_of(*message.definition, message.frame().payload(), field);
@@ -270,9 +264,6 @@ auto from_frame() {
     return [](const Of& of) { return get(of.frame()); };
 }
 
-int system_of(const wire::FrameView& frame) { return frame.system().value; }
-int component_of(const wire::FrameView& frame) { return frame.component().value; }
-int sequence_of(const wire::FrameView& frame) { return frame.sequence(); }
 std::uint32_t frame_id(const wire::FrameView& frame) { return frame.id().value; }
 int frame_version(const wire::FrameView& frame) { return static_cast<int>(frame.version()); }
 bool is_signed(const wire::FrameView& frame) { return frame.is_signed(); }

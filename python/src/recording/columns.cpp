@@ -18,11 +18,10 @@ bool is_wanted(const record::Record& record, const RowsQuery& query, const diale
     const auto& frame = record.frame;
     const auto time_ns = record.time.time_since_epoch().count();
     if (time_ns < query.begin || time_ns >= query.end) return false;
-    if (query.system && frame.system().value != *query.system) return false;
-    if (query.component && frame.component().value != *query.component) return false;
+    if (!query.filter.admits(frame)) return false;
     if (!query.instance) return true;
-    const auto* field = feed::instance_field(message);
-    return field != nullptr && feed::instance_of(message, *field, frame) == *query.instance;
+    const auto* field = message::instance_field(message);
+    return field != nullptr && message::instance_of(message, *field, frame.payload()) == *query.instance;
 }
 
 std::unique_ptr<std::uint8_t[]> room_for(std::size_t bytes) {
@@ -162,9 +161,9 @@ namespace {
 
 // Calls take(record) for each record that next(bytes) returns. Returns true if there may be more.
 template <class Next, class Take>
-SetupResult<bool> read_records(record::TlogReader& reader, std::uint64_t most_bytes, Next next, Take take) {
+SetupResult<bool> read_records(record::TlogReader& reader, std::uint64_t max_bytes, Next next, Take take) {
     using Stop = record::TlogReader::Stop;
-    const auto end = reader.position() + most_bytes;
+    const auto end = reader.position() + max_bytes;
     while (reader.position() < end) {
         const auto record = next(end - reader.position());
         if (record) {
@@ -180,19 +179,19 @@ SetupResult<bool> read_records(record::TlogReader& reader, std::uint64_t most_by
 
 }  // namespace
 
-SetupResult<bool> read_rows(record::TlogReader& reader, const RowsQuery& query, Table& table, std::uint64_t most_bytes) {
+SetupResult<bool> read_rows(record::TlogReader& reader, const RowsQuery& query, Table& table, std::uint64_t max_bytes) {
     const auto& message = table.message();
     return read_records(
-        reader, most_bytes, [&](std::uint64_t most) { return reader.next_of(message.id(), most); },
+        reader, max_bytes, [&](std::uint64_t most) { return reader.next_of(message.id(), most); },
         [&](const record::Record& record) {
             if (is_wanted(record, query, message)) table.add(record.time.time_since_epoch().count(), record.frame);
         });
 }
 
 SetupResult<bool> read_tables(record::TlogReader& reader, const dialect::Dialect& dialect, const RowsQuery& query,
-                              Tables& tables, std::uint64_t most_bytes) {
+                              Tables& tables, std::uint64_t max_bytes) {
     return read_records(
-        reader, most_bytes, [&](std::uint64_t most) { return reader.next(most); },
+        reader, max_bytes, [&](std::uint64_t most) { return reader.next(most); },
         [&](const record::Record& record) {
             if (record.info == nullptr) return;
             const auto place = static_cast<std::size_t>(record.info - dialect.wire_table().messages().data());

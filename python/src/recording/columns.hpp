@@ -18,8 +18,8 @@
 
 #include "mavloom/base/result.hpp"
 #include "mavloom/dialect/dialect.hpp"
-#include "mavloom/feed/filter.hpp"
-#include "mavloom/feed/instance.hpp"
+#include "mavloom/dialect/filter.hpp"
+#include "mavloom/message/instance.hpp"
 #include "mavloom/message/modes.hpp"
 #include "mavloom/record/tlog_reader.hpp"
 
@@ -27,8 +27,8 @@ namespace mavloom::python {
 
 // Which messages become rows.
 struct RowsQuery {
-    std::optional<std::uint8_t> system{}, component{};
-    std::optional<feed::Instance> instance{};  // value of the field that is marked as the instance
+    dialect::Filter filter{};
+    std::optional<message::Instance> instance{};  // value of the field that is marked as the instance
     // Recorded times in ns: from `begin` on, and before `end`.
     std::int64_t begin = std::numeric_limits<std::int64_t>::min(), end = std::numeric_limits<std::int64_t>::max();
 };
@@ -135,10 +135,10 @@ private:
     std::size_t gathered_ = 0;  // rows that are in the groups of the columns
 };
 
-// Reads the next `most_bytes` bytes of the file, whatever they hold, or up to its end. Returns true if there may be
+// Reads the next `max_bytes` bytes of the file, whatever they hold, or up to its end. Returns true if there may be
 // more. Errors are those of TlogReader.
 [[nodiscard]] SetupResult<bool> read_rows(record::TlogReader& reader, const RowsQuery& query, Table& table,
-                                          std::uint64_t most_bytes);
+                                          std::uint64_t max_bytes);
 
 // The tables of many messages, by the position of the message in the dialect's wire table. Null: not wanted, or did not
 // occur yet.
@@ -149,6 +149,6 @@ struct Tables {
 };
 // Like read_rows, but checks every checksum.
 [[nodiscard]] SetupResult<bool> read_tables(record::TlogReader& reader, const dialect::Dialect& dialect,
-                                            const RowsQuery& query, Tables& tables, std::uint64_t most_bytes);
+                                            const RowsQuery& query, Tables& tables, std::uint64_t max_bytes);
 
 }  // namespace mavloom::python

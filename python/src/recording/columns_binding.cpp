@@ -89,9 +89,8 @@ void read_all(Read read) {
     }
 }
 
-RowsQuery query_of(const OptionalInteger& system, const OptionalInteger& component, const OptionalInteger& begin,
-                   const OptionalInteger& end) {
-    RowsQuery query{.system = in<std::uint8_t>("system", system), .component = in<std::uint8_t>("component", component)};
+RowsQuery query_of(dialect::Filter filter, const OptionalInteger& begin, const OptionalInteger& end) {
+    RowsQuery query{.filter = std::move(filter)};
     if (begin) query.begin = begin->in<std::int64_t>("start");
     if (end) query.end = end->in<std::int64_t>("end");
     return query;
@@ -102,7 +101,7 @@ nb::tuple read_columns_of(const nb::list& paths, const std::string& name, const 
                           const OptionalInteger& end, const FieldNames& fields, const nb::object& dialect) {
     const auto definitions = definitions_of(dialect);
     const auto& message = *value_or_raise(definitions->dialect().message(name));
-    auto query = query_of(system, component, begin, end);
+    auto query = query_of(make_filter(definitions->dialect(), nb::none(), system, component), begin, end);
     query.instance = instance_from(instance);
     if (query.instance) check_instance(message, *query.instance);
     Table table(message, places_of(definitions->dialect(), message, fields));
@@ -135,15 +134,15 @@ nb::tuple read_tables_of(const nb::list& paths, const nb::object& type, const Op
     const auto filter = make_filter(known, type, system, component);
     Tables tables{std::vector<bool>(infos.size()), std::vector<std::unique_ptr<Table>>(infos.size()), fields};
     for (std::size_t i = 0; i < infos.size(); ++i) {
-        const bool named = filter.ids && std::ranges::find(*filter.ids, infos[i].id) != filter.ids->end();
+        const bool named = !type.is_none() && filter.admits(infos[i].id);
         const auto& message = *known.find(infos[i].id);
         const auto places = fields_in(message, fields);
-        tables.wanted[i] = named || (!filter.ids && !(fields && places.empty()));
+        tables.wanted[i] = named || (type.is_none() && !(fields && places.empty()));
         // A named message gets a table even if it does not occur.
         if (named) tables.tables[i] = std::make_unique<Table>(message, places);
     }
     check_fields(known, tables);
-    const auto query = query_of(system, component, begin, end);
+    const auto query = query_of(filter, begin, end);
     std::uint64_t lost_bytes = 0;
     for (const nb::handle path : paths) {
         auto reader = open(path, known);

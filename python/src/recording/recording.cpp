@@ -18,6 +18,7 @@
 #include "mavloom/record/tlog_reader.hpp"
 #include "message/filter.hpp"
 #include "message/message.hpp"
+#include "recording/summary.hpp"
 #include "strings.hpp"
 #include "waiting.hpp"
 
@@ -91,11 +92,13 @@ public:
         batch_.clear();
     }
 
+    [[nodiscard]] RecordingSummary summary() const { return summary_of(path_, origin_); }
+
     [[nodiscard]] const std::string& path() const noexcept { return path_; }
 
 private:
     static constexpr std::size_t batch_frames = 512;
-    static constexpr std::uint64_t most_damage = 1 << 20;  // bytes to read before signals are handled
+    static constexpr std::uint64_t max_damage = 1 << 20;  // bytes to read before signals are handled
 
     // When a call gives up. A poll (time-out 0) looks at everything that is available: for a file, all of it.
     struct Limit {
@@ -126,14 +129,14 @@ private:
 
     // Returns an invalid object at the end or when the limit is reached. Signal handlers run without the lock, because
     // they may use the recording.
-    nb::object next_match(const feed::Filter& filter, const Limit& limit) {
+    nb::object next_match(const dialect::Filter& filter, const Limit& limit) {
         for (;; check_signals()) {
             const auto lock = lock_without_gil(mutex_);
             reader();
             while (const auto* item = batch_.next()) {
                 ++delivered_;
                 const auto frame = batch_.frame(*item);
-                if (filter.takes(frame)) return make_message(origin_, item->definition, item->time_ns, 0, frame);
+                if (filter.admits(frame)) return make_message(origin_, item->definition, item->time_ns, 0, frame);
             }
             if (ended_ || limit.is_over()) return {};
             if (fill()) continue;
@@ -155,9 +158,9 @@ private:
             const WithoutGil outside;
             const std::size_t wanted = file.is_file() ? batch_frames : 1;
             for (std::size_t read = 0; read < batch_frames && batch_.size() < wanted && !stop; ++read) {
-                const auto record = file.next(most_damage);
+                const auto record = file.next(max_damage);
                 if (!record) stop = record.error();
-                else if (filter_.takes(record->frame)) add(*record);
+                else if (filter_.admits(record->frame)) add(*record);
             }
         }
         using Stop = record::TlogReader::Stop;
@@ -174,7 +177,7 @@ private:
 
     const std::string path_;
     const std::shared_ptr<Origin> origin_;
-    const feed::Filter filter_;
+    const dialect::Filter filter_;
     std::mutex mutex_;
     // Guarded by mutex_:
     std::optional<record::TlogReader> reader_;  // empty: closed
@@ -237,6 +240,10 @@ void bind_recording(nb::module_& module) {
             },
             nb::arg("timeout") = nb::none(), nb::sig("def recv(self, timeout: float | None = None) -> Message | None"),
             "Returns the next message, or None at the end, or if a pipe has none for `timeout` seconds.")
+        .def("summary", &Recording::summary,
+             "Returns what happened in the recording: vehicles, modes, distance, warnings, losses and more.\n\n"
+             "It reads the whole file, whatever messages are selected, and does not change which message\n"
+             "comes next. A pipe has no summary.")
         .def("rewind", &Recording::rewind, "Starts again at the beginning. Bytes that are read again count again.")
         .def_prop_ro("percent", &Recording::percent, "The percentage of the file that was read, 0 to 100.")
         .def_prop_ro("stats", &Recording::stats, "A snapshot of the counters, as RecordingStats.")

@@ -59,7 +59,7 @@ public:
     }
 
     void close() {
-        if (const auto next = close_file(); !next.empty()) warn(record::removal_notice(path_, next));
+        if (const auto notice = close_file(); !notice.empty()) warn(notice);
     }
 
     [[nodiscard]] const std::string& path() const noexcept { return path_; }
@@ -79,26 +79,25 @@ private:
         const auto notice = [&] {
             const auto lock = lock_without_gil(mutex_);
             if (!writer_) raise_closed(path_ + ": the recording is closed");
-            const auto removed = value_or_raise(writer_->look_after(mono_now()));
+            const auto removed = value_or_raise(writer_->maintain(mono_now()));
             value_or_raise(work(*writer_));
-            return removed.empty() ? std::string() : record::removal_notice(removed, writer_->segment_path());
+            return removed.empty() ? std::string() : writer_->removal_notice(removed);
         }();
         if (!notice.empty()) warn(notice);
     }
-    // If the file was removed, returns the new one, which has the last records.
-    std::filesystem::path close_file() {
+    // Returns the notice that the file was removed; empty if it is there.
+    std::string close_file() {
         const auto lock = lock_without_gil(mutex_);
         if (!writer_) return {};
-        const auto files = writer_->segments();
-        auto done = [&] {
+        auto removed = [&] {
             const WithoutGil outside;
             return writer_->close();
         }();
-        const auto next = writer_->segments() != files ? writer_->segment_path() : std::filesystem::path{};
+        auto notice = removed && !removed->empty() ? writer_->removal_notice(*removed) : std::string();
         records_ = writer_->written_records();
         writer_.reset();
-        value_or_raise(std::move(done));
-        return next;
+        value_or_raise(std::move(removed));
+        return notice;
     }
 
     const std::string path_;

@@ -16,13 +16,13 @@ class ClaimView {
 public:
     ClaimView(nb::object holder, PyRingWriter& writer, std::shared_ptr<Claimed> claimed)
         : holder_(std::move(holder)), writer_(&writer) {
-        if (!claimed->looks.begin()) PyRingWriter::raise_over();
+        if (!claimed->pins.pin()) PyRingWriter::raise_over();
         claimed_ = std::move(claimed);
     }
     ClaimView(ClaimView&& other) noexcept = default;
     ClaimView& operator=(ClaimView&&) = delete;
     ~ClaimView() {
-        if (claimed_ && claimed_->looks.end()) writer_->on_last_look_ended(*claimed_);
+        if (claimed_ && claimed_->pins.unpin()) writer_->on_unpinned(*claimed_);
     }
     [[nodiscard]] ByteSpan bytes() const noexcept { return claimed_->bytes; }
 
@@ -109,7 +109,7 @@ private:
             view_.attr("release")();
         } catch (const nb::python_error& error) {
             if (!error.matches(PyExc_BufferError)) throw;
-            PyRingWriter::raise_looked_at();
+            PyRingWriter::raise_pinned();
         }
         view_.reset();
     }

@@ -6,7 +6,7 @@
 namespace mavloom::python {
 namespace {
 
-constexpr std::size_t most_copied_bytes = 1 << 20;  // in one batch, plus one record
+constexpr std::size_t max_copied_bytes = 1 << 20;  // in one batch, plus one record
 
 SharedRingReader::State state_of(shm::ReadError error) noexcept {
     using State = SharedRingReader::State;
@@ -43,29 +43,29 @@ const std::vector<shm::RingRecord>& Lease::records() const noexcept {
     return kept_.load() == Kept::copies ? kept_records_ : records_;
 }
 
-Lease::Look Lease::look() noexcept {
-    if (looks_.begin()) {
+Lease::Pin Lease::pin() noexcept {
+    if (pins_.pin()) {
         std::uint64_t first = 0;
-        if (const auto here = feed::this_thread(); !looker_.compare_exchange_strong(first, here) && first != here)
-            has_several_lookers_.store(true);
-        return Look::counted;
+        if (const auto here = feed::this_thread(); !pinned_by_.compare_exchange_strong(first, here) && first != here)
+            is_pinned_by_several_.store(true);
+        return Pin::counted;
     }
     while (kept_.load() == Kept::soon) std::this_thread::yield();
-    return kept_.load() == Kept::copies ? Look::free : Look::refused;
+    return kept_.load() == Kept::copies ? Pin::free : Pin::refused;
 }
 
-void Lease::look_away() noexcept {
-    if (looks_.end() && ring_reader_) ring_reader_->on_last_look_ended();
+void Lease::unpin() noexcept {
+    if (pins_.unpin() && ring_reader_) ring_reader_->on_unpinned();
 }
 
 bool Lease::is_another_threads() const noexcept {
-    return !has_several_lookers_.load() && looker_.load() != feed::this_thread();
+    return !is_pinned_by_several_.load() && pinned_by_.load() != feed::this_thread();
 }
 
 bool Lease::keep() {
     kept_records_ = records_;
     kept_.store(Kept::soon);
-    const bool finished = looks_.finish();
+    const bool finished = pins_.finish();
     if (finished) {
         for (const auto& record : records_) append(copies_, record.data);
         point_to(kept_records_, copies_);
@@ -98,7 +98,7 @@ SharedRingReader::State SharedRingReader::fill(std::size_t most, MonoTime deadli
     if (pending_.lease) return State::found;
     if (lossless_ && !release_current()) {
         const auto lease = current_.lock();  // null if another thread released it meanwhile
-        return lease && !lease->is_another_threads() ? State::looked_at : State::used_elsewhere;
+        return lease && !lease->is_another_threads() ? State::pinned : State::used_elsewhere;
     }
     const State state = lossless_ ? view(most, deadline) : copy(most, deadline);
     missed_.store(reader_.missed(), std::memory_order_relaxed);
@@ -128,7 +128,7 @@ SharedRingReader::State SharedRingReader::view(std::size_t most, MonoTime deadli
 SharedRingReader::State SharedRingReader::copy(std::size_t most, MonoTime deadline) {
     std::vector<shm::RingRecord> records;
     std::vector<std::uint64_t> copies;
-    while (records.size() < most && copies.size() * sizeof copies[0] < most_copied_bytes) {
+    while (records.size() < most && copies.size() * sizeof copies[0] < max_copied_bytes) {
         const auto record = records.empty() ? next(deadline) : reader_.try_read();
         if (!record && records.empty()) return state_of(record.error());
         if (!record) break;
@@ -173,10 +173,10 @@ bool SharedRingReader::close_locked() {
 
 void SharedRingReader::abandon() {
     abandoned_.store(true);
-    on_last_look_ended();
+    on_unpinned();
 }
 
-void SharedRingReader::on_last_look_ended() {
+void SharedRingReader::on_unpinned() {
     if (abandoned_.load() && fork_.is_own_process()) static_cast<void>(close());
 }
 
@@ -203,8 +203,8 @@ void SharedRingReader::arm() {
 
 Nanoseconds SharedRingReader::sleep_time() {
     return mutex_.peek([this](bool nobody_reads) -> Nanoseconds {
-        constexpr auto until_next_look = std::chrono::milliseconds{1};
-        if (!nobody_reads) return until_next_look;
+        constexpr auto poll_interval = std::chrono::milliseconds{1};
+        if (!nobody_reads) return poll_interval;
         if (is_closed() || pending_.lease) return {};
         return reader_.arm();
     });

@@ -13,7 +13,7 @@
 #include "mavloom/feed/ring_alarm.hpp"
 #include "mavloom/feed/sliced_mutex.hpp"
 #include "mavloom/shm/ring_reader.hpp"
-#include "ring/looks.hpp"
+#include "ring/pin_count.hpp"
 #include "waiting.hpp"
 
 namespace mavloom::python {
@@ -31,23 +31,23 @@ public:
     Lease(std::vector<shm::RingRecord> records, std::vector<std::uint64_t> copies)
         : records_(std::move(records)), copies_(std::move(copies)) {}
 
-    // The records and where their bytes are. Call `look` first: without it, the bytes may move.
+    // The records and where their bytes are. Call `pin` first: without it, the bytes may move.
     [[nodiscard]] const std::vector<shm::RingRecord>& records() const noexcept;
     [[nodiscard]] bool is_copy() const noexcept { return ring_reader_ == nullptr || kept_.load() == Kept::copies; }
     // The ring's reader, which keeps the ring mapped; null for records that were copied when they were read.
     [[nodiscard]] const std::shared_ptr<SharedRingReader>& ring_reader() const noexcept { return ring_reader_; }
 
-    // Call `look` before using the bytes.
-    // - `counted`: call `look_away` afterwards.
-    // - `free`: the views became copies, which never end. Do not call `look_away`.
+    // Call `pin` before using the bytes.
+    // - `counted`: call `unpin` afterwards.
+    // - `free`: the views became copies, which never end. Do not call `unpin`.
     // - `refused`: the bytes have ended.
-    enum class Look : std::uint8_t { refused, counted, free };
-    [[nodiscard]] Look look() noexcept;
-    void look_away() noexcept;
-    // Returns false if this thread has looked, or if several threads have.
+    enum class Pin : std::uint8_t { refused, counted, free };
+    [[nodiscard]] Pin pin() noexcept;
+    void unpin() noexcept;
+    // Returns false if this thread has pinned them, or if several threads have.
     [[nodiscard]] bool is_another_threads() const noexcept;
     // Ends the records. Returns false while they are in use. Once it has returned true, later calls return true, too.
-    [[nodiscard]] bool release() noexcept { return looks_.finish(); }
+    [[nodiscard]] bool release() noexcept { return pins_.finish(); }
     // Replaces views by copies while the ring is still held for them. Returns false while they are in use.
     [[nodiscard]] bool keep();
 
@@ -59,9 +59,9 @@ private:
     std::vector<std::uint64_t> copies_;
     std::vector<shm::RingRecord> kept_records_;  // records_, with the data in copies_
     std::atomic<Kept> kept_{Kept::nothing};
-    Looks looks_;
-    std::atomic<std::uint64_t> looker_{0};  // the first thread that looked
-    std::atomic<bool> has_several_lookers_{false};
+    PinCount pins_;
+    std::atomic<std::uint64_t> pinned_by_{0};  // the first thread that pinned them
+    std::atomic<bool> is_pinned_by_several_{false};
 };
 
 // Part of a lease: its records from `first` on.
@@ -82,7 +82,7 @@ public:
         damaged,
         forked,
         closed,
-        looked_at,
+        pinned,
         used_elsewhere
     };
     // Reading takes two steps, because a signal handler may run between them: `fetch` makes records pending, and
@@ -105,9 +105,9 @@ public:
     // Gives the reader slot back. Returns false while the records that were read last are in use.
     [[nodiscard]] bool close();
     // `abandon`: the owner is gone. Closes the reader at once, or as soon as its records are no longer in use
-    // (`on_last_look_ended`).
+    // (`on_unpinned`).
     void abandon();
-    void on_last_look_ended();
+    void on_unpinned();
 
     // In a forked child, the ring is no longer held for the records.
     [[nodiscard]] const ForkGuard& fork() const noexcept { return fork_; }

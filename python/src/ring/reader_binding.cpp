@@ -20,9 +20,9 @@
 namespace mavloom::python {
 namespace {
 
-constexpr std::size_t most_in_batch = 1024;
+constexpr std::size_t max_in_batch = 1024;
 // How often to check whether another thread still uses what it read.
-constexpr auto look_again = std::chrono::microseconds{100};
+constexpr auto poll_interval = std::chrono::microseconds{100};
 constexpr auto longest_patience = std::chrono::seconds{10};  // how long to wait for such a thread
 
 // ---- views, records and batches
@@ -33,10 +33,10 @@ public:
     template <class BytesOf>
     View(std::shared_ptr<Lease> lease, BytesOf bytes_of) {
         if (!lease->is_copy()) lease->ring_reader()->fork().check();
-        const auto look = lease->look();
-        if (look == Lease::Look::refused)
+        const auto pin = lease->pin();
+        if (pin == Lease::Pin::refused)
             raise_usage("the record was released by a later read, release() or close(): copy what you keep");
-        is_counted_ = look == Lease::Look::counted;
+        is_counted_ = pin == Lease::Pin::counted;
         lease_ = std::move(lease);
         bytes_ = bytes_of(*lease_);
         if (holds()) return;
@@ -55,7 +55,7 @@ public:
 private:
     [[nodiscard]] bool holds() const noexcept { return lease_->is_copy() || lease_->ring_reader()->holds(); }
     void end() noexcept {
-        if (const auto lease = std::exchange(lease_, nullptr); lease && is_counted_) lease->look_away();
+        if (const auto lease = std::exchange(lease_, nullptr); lease && is_counted_) lease->unpin();
     }
     [[noreturn]] static void raise_evicted() {
         raise_error("the writer evicted this reader and may have overwritten the record");
@@ -103,13 +103,13 @@ public:
     explicit Record(Portion taken) : lease_(std::move(taken.lease)), index_(taken.first) {}
 
     [[nodiscard]] const shm::RingRecord& get() const noexcept { return lease_->records()[index_]; }
-    [[nodiscard]] View look() const {
+    [[nodiscard]] View pinned_view() const {
         return View(lease_, [this](const Lease& lease) { return lease.records()[index_].data; });
     }
-    [[nodiscard]] nb::object view() const { return nb::cast(look()); }
+    [[nodiscard]] nb::object view() const { return nb::cast(pinned_view()); }
     [[nodiscard]] nb::object data() const {
         if (!lease_->is_copy()) return nb::steal(PyMemoryView_FromObject(view().ptr()));
-        const View view = look();
+        const View view = pinned_view();
         return nb::bytes(view.bytes().data(), view.bytes().size());
     }
 
@@ -160,7 +160,7 @@ public:
         const auto numpy = nb::module_::import_("numpy");
         const nb::object type = numpy.attr("dtype")(dtype);
         if (nb::cast<bool>(type.attr("hasobject"))) raise_usage("a dtype with Python objects: a ring holds bytes");
-        const View looking(lease_, [](const Lease&) { return ByteView(); });
+        const View pin(lease_, [](const Lease&) { return ByteView(); });
         check_lengths(nb::cast<std::size_t>(type.attr("itemsize")));
         const auto records = this->records();
         const ByteView all(records.front().data.data(), (size() - 1) * distance() + records.front().data.size());
@@ -255,11 +255,11 @@ public:
         return record;
     }
     [[nodiscard]] nb::object next_batch(MonoTime deadline) {
-        auto batch = batch_or_none(take(most_in_batch, deadline));
+        auto batch = batch_or_none(take(max_in_batch, deadline));
         if (batch.is_none()) throw nb::stop_iteration();
         return batch;
     }
-    [[nodiscard]] nb::object poll_batch() { return batch_or_none(poll(most_in_batch)); }
+    [[nodiscard]] nb::object poll_batch() { return batch_or_none(poll(max_in_batch)); }
 
     void close() {
         if (!fork_.is_own_process()) return;
@@ -267,7 +267,7 @@ public:
             const WithoutGil outside;
             return ring_reader_->close();
         }();
-        if (!closed) check(State::looked_at);
+        if (!closed) check(State::pinned);
     }
 
     // The end of a `with` block. An exception on its way is not replaced by a BufferError about views that it keeps
@@ -302,7 +302,7 @@ private:
             if (is_used && mono_now() >= patient_until) return state;
             const WithoutGil outside;
             ring_reader_->yield_to_waiters();
-            if (is_used) std::this_thread::sleep_for(look_again);
+            if (is_used) std::this_thread::sleep_for(poll_interval);
             state = ring_reader_->fetch(most, deadline);
         }
     }
@@ -322,7 +322,7 @@ private:
                     ring_reader_->name()));
             case State::closed: raise_closed(fmt::format("the reader of ring {} is closed", ring_reader_->name()));
             case State::forked: raise_closed("opened before fork: open it again in this process");
-            case State::looked_at:
+            case State::pinned:
             case State::used_elsewhere:
                 raise_buffer(
                     "a view of the last record or batch is still alive (a memoryview, or an array made of one): "

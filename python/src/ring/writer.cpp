@@ -189,33 +189,33 @@ bool PyRingWriter::commit(Claimed& claimed, const shm::RecordInfo& info, std::si
         return commit_locked(claimed, info, length);
     }();
     if (committed == Committed::over) raise_over();
-    if (committed == Committed::looked_at) raise_looked_at();
+    if (committed == Committed::pinned) raise_pinned();
     return committed == Committed::yes;
 }
 
 PyRingWriter::Committed PyRingWriter::commit_locked(Claimed& claimed, const shm::RecordInfo& info, std::size_t length) {
     if (!claimed.is_dropped && claim_.get() != &claimed) return Committed::over;
-    if (!claimed.looks.finish()) return Committed::looked_at;
+    if (!claimed.pins.finish()) return Committed::pinned;
     if (claimed.is_dropped) return Committed::dropped;
     writer_->commit(info, length);
     end_claim();
     return Committed::yes;
 }
 
-void PyRingWriter::raise_looked_at() {
+void PyRingWriter::raise_pinned() {
     raise_buffer("a view of the claim is still alive (a slice, or an array made of it): release or delete it first");
 }
 void PyRingWriter::raise_over() { raise_closed("the claim is over: it was committed or abandoned"); }
 
 void PyRingWriter::give_up(Claimed& claimed) noexcept {
     claimed.given_up.store(true);
-    on_last_look_ended(claimed);
+    on_unpinned(claimed);
 }
 
 // Waiting with the GIL held is safe here: while a claim is open, the lock is held for moments only, and never by a
 // thread that needs the GIL.
-void PyRingWriter::on_last_look_ended(Claimed& claimed) noexcept {
-    if (!claimed.given_up.load() || !fork_.is_own_process() || !claimed.looks.finish()) return;
+void PyRingWriter::on_unpinned(Claimed& claimed) noexcept {
+    if (!claimed.given_up.load() || !fork_.is_own_process() || !claimed.pins.finish()) return;
     const auto lock = mutex_.take();
     if (claim_.get() == &claimed) end_claim();
 }
@@ -232,14 +232,14 @@ void PyRingWriter::close(bool remove) {
     auto closed = [&]() -> SetupResult<void> {
         const WithoutGil outside;
         const auto lock = mutex_.take();
-        is_filled = claim_ && !claim_->looks.finish();
+        is_filled = claim_ && !claim_->pins.finish();
         if (is_filled) return {};
         end_claim();
         closed_ = true;
         comes_late = remove && !writer_ && !removed_;
         return close_locked(remove);
     }();
-    if (is_filled) raise_looked_at();
+    if (is_filled) raise_pinned();
     if (comes_late)
         raise_closed(
             fmt::format("the writer of ring {} was closed and kept the ring; remove it with remove_ring", name_));
@@ -259,7 +259,7 @@ SetupResult<void> PyRingWriter::close_locked(bool remove) {
 void PyRingWriter::close_at_exit() noexcept {
     if (!fork_.is_own_process()) return;
     const auto lock = mutex_.take_until(MonoTime::max());
-    if (!lock.owns_lock() || (claim_ && !claim_->looks.finish())) return;
+    if (!lock.owns_lock() || (claim_ && !claim_->pins.finish())) return;
     writer_.reset();
 }
 

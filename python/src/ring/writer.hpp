@@ -15,7 +15,7 @@
 #include "integer.hpp"
 #include "mavloom/feed/sliced_mutex.hpp"
 #include "mavloom/shm/ring_writer.hpp"
-#include "ring/looks.hpp"
+#include "ring/pin_count.hpp"
 #include "waiting.hpp"
 
 namespace mavloom::python {
@@ -29,7 +29,7 @@ struct Claimed {
     std::vector<std::uint8_t> thrown_away;
     const ByteSpan bytes;
     const bool is_dropped = false;
-    Looks looks;
+    PinCount pins;
     std::atomic<bool> given_up{false};
 };
 
@@ -60,13 +60,13 @@ public:
     // Publishes the first `length` bytes; false if the record was dropped. Raises BufferError while the bytes are in
     // use, and ClosedError if the claim is over.
     bool commit(Claimed& claimed, const shm::RecordInfo& info, std::size_t length);
-    // Gives the room back: at once, or when the bytes are no longer in use (`on_last_look_ended`). Neither needs the
+    // Gives the room back: at once, or when the bytes are no longer in use (`on_unpinned`). Neither needs the
     // GIL.
     void give_up(Claimed& claimed) noexcept;
-    void on_last_look_ended(Claimed& claimed) noexcept;
+    void on_unpinned(Claimed& claimed) noexcept;
 
     [[noreturn]] static void raise_over();
-    [[noreturn]] static void raise_looked_at();
+    [[noreturn]] static void raise_pinned();
 
     // Call without the GIL. Waits for room until `deadline`. Returns `removed` once the writer is closed.
     [[nodiscard]] shm::WriteResult<void> put(ByteView data, const shm::RecordInfo& info, MonoTime deadline);
@@ -92,7 +92,7 @@ private:
     void wait_for_claim_end();
     [[nodiscard]] shm::WriteResult<std::shared_ptr<Claimed>> claim_or_wait(std::size_t length);
     [[nodiscard]] shm::WriteResult<std::shared_ptr<Claimed>> claim_locked(std::size_t length, MonoTime deadline);
-    enum class Committed : std::uint8_t { yes, dropped, over, looked_at };
+    enum class Committed : std::uint8_t { yes, dropped, over, pinned };
     [[nodiscard]] Committed commit_locked(Claimed& claimed, const shm::RecordInfo& info, std::size_t length);
     void end_claim() noexcept;
     // If there is no room at once, releases the GIL and waits for at most one slice.

@@ -12,7 +12,7 @@
 
 namespace mavloom::dialect {
 
-struct Place {
+struct SourceLocation {
     std::string_view file;
     std::size_t line = 0;
     [[nodiscard]] std::string text() const { return std::string(file) + ":" + std::to_string(line); }
@@ -21,7 +21,7 @@ struct Place {
 struct FieldDefinition {
     Field field;  // offset and enumeration are not set yet
     std::string_view enum_name;
-    Place place;
+    SourceLocation location;
 };
 
 struct MessageDefinition {
@@ -30,7 +30,7 @@ struct MessageDefinition {
     std::string_view origin;
     std::vector<FieldDefinition> fields;
     Deprecation deprecated;
-    Place place;
+    SourceLocation location;
 };
 
 struct EntryDefinition {
@@ -39,7 +39,7 @@ struct EntryDefinition {
     bool value_is_given = true;  // false: assigned the next free value, which may change when files are merged
     std::vector<CommandParam> params;
     Deprecation deprecated;
-    Place place;
+    SourceLocation location;
 };
 
 struct EnumDefinition {
@@ -47,13 +47,13 @@ struct EnumDefinition {
     bool bitmask = false;
     std::vector<EntryDefinition> entries;
     Deprecation deprecated;
-    Place place;
+    SourceLocation location;
     std::uint64_t lowest = 0, highest = 0;  // of the values in this file
 };
 
 struct IncludeDefinition {
     std::string_view path;  // relative to the including file
-    Place place;
+    SourceLocation location;
 };
 
 struct FileDefinitions {

@@ -144,7 +144,7 @@ Message rebound(Records& records, Message message) {
 }  // namespace
 
 SetupResult<Dialect> Dialect::with(const Dialect& other) const {
-    constexpr std::size_t most_messages = 60'000;  // the wire table uses 16-bit indexes
+    constexpr std::size_t max_messages = 60'000;  // the wire table uses 16-bit indexes
     auto storage = std::make_shared<Storage>();
     storage->kept_alive = {storage_, other.storage_};
     merge_enums(*storage, enums_, other.enums_);
@@ -152,9 +152,9 @@ SetupResult<Dialect> Dialect::with(const Dialect& other) const {
     for (const auto& message : messages_)
         if (other.find(message.name) == nullptr) by_id.emplace(message.id().value, &message);
     for (const auto& message : other.messages_) by_id.insert_or_assign(message.id().value, &message);
-    if (by_id.size() > most_messages)
+    if (by_id.size() > max_messages)
         return setup_error(SetupCode::bad_input, fmt::format("{} with {} has {} messages; expected at most {}", name_,
-                                                             other.name_, by_id.size(), most_messages));
+                                                             other.name_, by_id.size(), max_messages));
     for (const auto& [id, message] : by_id) storage->messages.push_back(rebound(*storage, *message));
     const auto name = storage->intern(fmt::format("{}+{}", name_, other.name_));
     return Dialect(name, std::move(storage));

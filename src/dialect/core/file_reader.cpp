@@ -8,6 +8,7 @@
 #include <initializer_list>
 
 #include "mavloom/base/suggest.hpp"
+#include "mavloom/base/text.hpp"
 #include "mavloom/wire/frame.hpp"
 #include "values.hpp"
 
@@ -41,7 +42,7 @@ public:
 private:
     using Node = pugi::xml_node;
 
-    Place place_of(Node node) const { return {path_, file_.line_of(node)}; }
+    SourceLocation location_of(Node node) const { return {path_, file_.line_of(node)}; }
 
     bool fail(Node node, std::string_view what) {
         error_ = {SetupCode::bad_input, 0, fmt::format("{}:{}: {}", path_, file_.line_of(node), what)};
@@ -115,13 +116,13 @@ bool FileReader::read_root(Node root) {
 bool FileReader::read_include(Node node) {
     const auto path = trimmed(node.text().get());
     if (path.empty() || !is_printable(path)) return fail(node, "empty <include>; expected the name of an XML file");
-    out_.includes.push_back({records_.intern(path), place_of(node)});
+    out_.includes.push_back({records_.intern(path), location_of(node)});
     return true;
 }
 
 bool FileReader::read_enum(Node node) {
     EnumDefinition definition;
-    definition.place = place_of(node);
+    definition.location = location_of(node);
     if (!required_word(node, "name", definition.name) || !flag(node, "bitmask", definition.bitmask)) return false;
     for (const auto child : node.children()) {
         if (is_ignored(child)) continue;
@@ -139,7 +140,7 @@ bool FileReader::read_enum(Node node) {
 
 bool FileReader::read_entry(Node node, EnumDefinition& owner) {
     EntryDefinition entry;
-    entry.place = place_of(node);
+    entry.location = location_of(node);
     if (!required_word(node, "name", entry.name) || !read_entry_value(node, owner, entry)) return false;
     for (const auto child : node.children()) {
         if (is_ignored(child)) continue;
@@ -198,7 +199,7 @@ bool FileReader::read_param(Node node, EntryDefinition& owner) {
 
 bool FileReader::read_message(Node node) {
     MessageDefinition message;
-    message.place = place_of(node);
+    message.location = location_of(node);
     message.origin = origin_;
     if (!required_word(node, "name", message.name)) return false;
     const auto id = parse_unsigned(node.attribute("id").value());
@@ -230,7 +231,7 @@ bool FileReader::read_message(Node node) {
 bool FileReader::read_field(Node node, bool extension, MessageDefinition& owner) {
     FieldDefinition definition;
     auto& field = definition.field;
-    definition.place = place_of(node);
+    definition.location = location_of(node);
     field.extension = extension;
     std::string_view display;
     std::optional<double> multiplier;
@@ -244,7 +245,7 @@ bool FileReader::read_field(Node node, bool extension, MessageDefinition& owner)
     const auto same = std::ranges::find(owner.fields, field.name, [](const auto& f) { return f.field.name; });
     if (same != owner.fields.end()) {
         return fail(node, fmt::format("message {} has a field '{}' already, at line {}", owner.name, field.name,
-                                      same->place.line));
+                                      same->location.line));
     }
     owner.fields.push_back(definition);
     return true;

@@ -37,11 +37,11 @@ public:
 private:
     struct Step {
         fs::path path;
-        Place from;                           // the <include> element; empty for the top file
+        SourceLocation from;                  // the <include> element; empty for the top file
         const PublicFile* instead = nullptr;  // in place of the file at `path`, which does not exist
     };
 
-    void enqueue(fs::path path, Place from) {
+    void enqueue(fs::path path, SourceLocation from) {
         std::error_code ignored;  // reading an unresolvable path will fail later
         const bool is_missing = fs::status(path, ignored).type() == fs::file_type::not_found;
         const PublicFile* const instead = is_missing && !from.file.empty() ? public_file(path) : nullptr;
@@ -67,7 +67,7 @@ private:
         auto definitions = read_definitions(*file, records_);
         if (!definitions) return tl::unexpected(std::move(definitions.error()));
         for (const auto& include : definitions->includes)
-            enqueue((step.path.parent_path() / include.path).lexically_normal(), include.place);
+            enqueue((step.path.parent_path() / include.path).lexically_normal(), include.location);
         append(all_.enums, definitions->enums);
         append(all_.messages, definitions->messages);
         return {};

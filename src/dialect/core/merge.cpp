@@ -12,8 +12,8 @@
 namespace mavloom::dialect {
 namespace {
 
-tl::unexpected<SetupError> conflict(const Place& place, std::string_view what) {
-    return setup_error(SetupCode::bad_input, fmt::format("{}: {}", place.text(), what));
+tl::unexpected<SetupError> conflict(const SourceLocation& location, std::string_view what) {
+    return setup_error(SetupCode::bad_input, fmt::format("{}: {}", location.text(), what));
 }
 
 bool same(const CommandParam& a, const CommandParam& b) {
@@ -107,12 +107,13 @@ private:
     static tl::unexpected<SetupError> clash(std::string_view enum_name, const EntryDefinition& first,
                                             const EntryDefinition& second) {
         if (first.name == second.name && first.value == second.value) {
-            return conflict(second.place, fmt::format("{} has other parameters at {}; expected the same", second.name,
-                                                      first.place.text()));
+            return conflict(second.location, fmt::format("{} has other parameters at {}; expected the same",
+                                                         second.name, first.location.text()));
         }
-        return conflict(second.place,
-                        fmt::format("{} = {} in enum {} conflicts with {} = {} at {}; expected one name for each value",
-                                    second.name, second.value, enum_name, first.name, first.value, first.place.text()));
+        return conflict(
+            second.location,
+            fmt::format("{} = {} in enum {} conflicts with {} = {} at {}; expected one name for each value",
+                        second.name, second.value, enum_name, first.name, first.value, first.location.text()));
     }
 
     Records& records_;
@@ -131,7 +132,7 @@ public:
             if (first != &definition && !same(*first, definition)) return clash(*first, definition);
         }
         if (by_id.size() > max_messages) {
-            return conflict(definitions.back().place,
+            return conflict(definitions.back().location,
                             fmt::format("{} messages; expected at most {}", by_id.size(), max_messages));
         }
         for (const auto& [id, definition] : by_id)
@@ -142,15 +143,16 @@ public:
 private:
     static tl::unexpected<SetupError> clash(const MessageDefinition& first, const MessageDefinition& second) {
         if (first.id != second.id) {
-            return conflict(second.place, fmt::format("message {} has id {} here and id {} at {}; expected one id",
-                                                      second.name, second.id, first.id, first.place.text()));
+            return conflict(second.location, fmt::format("message {} has id {} here and id {} at {}; expected one id",
+                                                         second.name, second.id, first.id, first.location.text()));
         }
         if (first.name != second.name) {
-            return conflict(second.place, fmt::format("id {} of message {} belongs to {} at {}; expected a free id",
-                                                      second.id, second.name, first.name, first.place.text()));
+            return conflict(second.location, fmt::format("id {} of message {} belongs to {} at {}; expected a free id",
+                                                         second.id, second.name, first.name, first.location.text()));
         }
-        return conflict(second.place, fmt::format("message {} (id {}) has other content at {}; expected one definition",
-                                                  second.name, second.id, first.place.text()));
+        return conflict(second.location,
+                        fmt::format("message {} (id {}) has other content at {}; expected one definition", second.name,
+                                    second.id, first.location.text()));
     }
 
     SetupResult<void> add(const MessageDefinition& definition) {
@@ -180,7 +182,7 @@ private:
         std::vector<std::string_view> names;
         names.reserve(records_.enums.size());
         for (const auto& e : records_.enums) names.push_back(e.name);
-        return conflict(written.place,
+        return conflict(written.location,
                         fmt::format("field '{}' names the enum '{}', which no file defines{}; expected an enum",
                                     written.field.name, written.enum_name, did_you_mean(written.enum_name, names)));
     }

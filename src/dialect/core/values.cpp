@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "layout.hpp"
+#include "mavloom/base/text.hpp"
 
 namespace mavloom::dialect {
 namespace {
@@ -51,13 +52,6 @@ bool is_allowed_pair(unsigned char lead, unsigned char second) noexcept {
 }
 
 }  // namespace
-
-std::string_view trimmed(std::string_view text) noexcept {
-    constexpr std::string_view blanks = " \t\r\n";
-    const auto first = text.find_first_not_of(blanks);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 bool is_word(std::string_view text) noexcept {
     return !text.empty() && text.size() <= max_word_length && std::ranges::all_of(text, [](char c) {

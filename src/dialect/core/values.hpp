@@ -16,7 +16,6 @@ struct TypeText {
     std::size_t array_length = 0;  // 0: a scalar; the maximum is not checked
 };
 
-[[nodiscard]] std::string_view trimmed(std::string_view text) noexcept;
 // True for 1 to 100 letters, digits and underscores, which are safe in C++ and in file names.
 [[nodiscard]] bool is_word(std::string_view text) noexcept;
 // True for valid UTF-8 without control characters.

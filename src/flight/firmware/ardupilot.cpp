@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <array>
 #include <iterator>
 
 #include "flight/firmware/tables.hpp"
 #include "mavloom/msg/enums/mav_autopilot.hpp"
 #include "mavloom/msg/enums/mav_cmd.hpp"
 #include "mavloom/msg/enums/mav_protocol_capability.hpp"
-#include "mavloom/msg/enums/mav_type.hpp"
 
 namespace mavloom::flight {
 
@@ -18,29 +16,22 @@ constexpr VersionInfo ardupilot_version{.flight = 0x040600ff, .middleware = 0, .
 
 class ArduPilot final : public Firmware {
 public:
-    explicit ArduPilot(Kind kind) noexcept : kind_(kind) {}
+    explicit ArduPilot(Kind kind) noexcept : Firmware(kind) {}
     Autopilot autopilot() const noexcept override { return Autopilot::ardupilot; }
     std::uint8_t mav_autopilot() const noexcept override { return msg::MAV_AUTOPILOT_ARDUPILOTMEGA; }
-    std::uint8_t mav_type() const noexcept override {
-        constexpr std::array types{msg::MAV_TYPE_QUADROTOR, msg::MAV_TYPE_FIXED_WING, msg::MAV_TYPE_GROUND_ROVER};
-        return static_cast<std::uint8_t>(types[static_cast<std::size_t>(kind_)]);
-    }
     std::uint64_t capabilities(const VehicleOptions& options) const noexcept override;
     const VersionInfo& version() const noexcept override { return ardupilot_version; }
-    const Texts& texts() const noexcept override { return ardupilot_texts(kind_); }
-    std::span<const ModeInfo> modes() const noexcept override { return ardupilot_modes(kind_); }
+    const Texts& texts() const noexcept override { return ardupilot_texts(kind()); }
+    std::span<const ModeInfo> modes() const noexcept override { return ardupilot_modes(kind()); }
     const ModeInfo& boot_mode() const noexcept override { return modes().front(); }
     const ModeInfo* mode_for(Behaviour behaviour) const noexcept override;
     const ModeInfo* requested_mode(std::uint8_t base_mode, std::uint32_t main,
                                    std::uint32_t sub) const noexcept override;
-    std::span<const ParamInfo> parameters() const noexcept override { return ardupilot_parameters(kind_); }
+    std::span<const ParamInfo> parameters() const noexcept override { return ardupilot_parameters(kind()); }
     bool is_bytewise() const noexcept override { return false; }
-    Tuning tuning(const Parameters& parameters) const override { return ardupilot_tuning(kind_, parameters); }
+    Tuning tuning(const Parameters& parameters) const override { return ardupilot_tuning(kind(), parameters); }
     bool has_home_in_mission() const noexcept override { return true; }
     std::string_view item_name(std::uint16_t command) const noexcept override;
-
-private:
-    Kind kind_;
 };
 
 std::uint64_t ArduPilot::capabilities(const VehicleOptions& options) const noexcept {
@@ -59,9 +50,9 @@ std::uint64_t ArduPilot::capabilities(const VehicleOptions& options) const noexc
 
 // A copter that shall hold goes to LOITER, and one without a position comes down in LAND.
 const ModeInfo* ArduPilot::mode_for(Behaviour behaviour) const noexcept {
-    if (kind_ == Kind::quad && behaviour == Behaviour::hold) return find_mode("LOITER");
-    if (kind_ == Kind::quad && behaviour == Behaviour::descend) return find_mode("LAND");
-    if (kind_ != Kind::quad && behaviour == Behaviour::brake) behaviour = Behaviour::hold;
+    if (kind() == Kind::quad && behaviour == Behaviour::hold) return find_mode("LOITER");
+    if (kind() == Kind::quad && behaviour == Behaviour::descend) return find_mode("LAND");
+    if (kind() != Kind::quad && behaviour == Behaviour::brake) behaviour = Behaviour::hold;
     for (const ModeInfo& mode : modes())
         if (mode.behaviour == behaviour) return &mode;
     return nullptr;
@@ -135,30 +126,38 @@ std::string_view ArduPilot::item_name(std::uint16_t command) const noexcept {
     return at == std::end(item_names) ? "?" : at->name;
 }
 
+// Sources: AP_Arming, AP_BattMonitor, AC_Fence and AP_Vehicle of ArduPilot 4.6; for the kinds of vehicles, the files of
+// arming, modes and fail-safes.
 constexpr Texts common_texts{
     .armed = "Throttle armed",
     .disarmed = "Throttle disarmed",
     .disarmed_by_landing = "Throttle disarmed",
     .disarmed_without_takeoff = "Throttle disarmed",
+    .refusals = {.booting = "PreArm: AHRS: EKF3 still initialising",
+                 .position = "PreArm: GPS 1: Bad fix",
+                 .home = "PreArm: AHRS: waiting for home",
+                 .battery = "PreArm: Battery 1 low capacity failsafe",
+                 .mode = "PreArm: {} mode not armable",
+                 .mission = "PreArm: Mode requires mission",
+                 .compass_runs = "PreArm: Compass calibration running",
+                 .compass_calibrated = "PreArm: Compass calibrated requires reboot",
+                 .accelerometer_runs = "PreArm: 3D Accel calibration needed",
+                 .accelerometer_calibrated = "PreArm: Accels calibrated requires reboot"},
     .not_ready = "PreArm: Vehicle is not ready",
-    .no_position = "PreArm: Need a position",
-    .not_in_mode = "Arm: this mode does not allow it",
-    .not_landed = "Disarm refused: not landed",
-    .no_mission = "Auto refused: no mission",
     .mission_received = "Flight plan received",
     .rally_received = "Rally points received",
     .item_begins = "Mission: {} {}",
     .item_jumps = "Mission: {} Jump {}/{}",
-    .battery_low = "Battery 1 is low",
-    .battery_critical = "Battery 1 is low",
-    .battery_emergency = "Battery 1 is critical",
-    .gcs_lost = "GCS failsafe on",
-    .gcs_regained = "GCS failsafe off",
-    .manual_lost = "Radio failsafe on",
-    .fence_breached = "Fence breached",
-    .unknown_mode = "Unknown mode number",
-    .mode_refused = "Mode change to {} refused",
-    .takeoff_too_low = "Takeoff altitude is too low",
+    .battery_low = "Battery 1 is low {}V used {} mAh",
+    .battery_critical = "Battery 1 is low {}V used {} mAh",
+    .battery_emergency = "Battery 1 is critical {}V used {} mAh",
+    .gcs_lost = "GCS Failsafe",
+    .gcs_regained = "GCS Failsafe Cleared",
+    .manual_lost = "Radio Failsafe",
+    .fence_breached = "{} breached",
+    .fence_cleared = "Fence breach cleared",
+    .unknown_mode = "No such mode {}",
+    .mode_refused = "Flight mode change failed",
 };
 
 constexpr Texts copter_texts = [] {
@@ -166,12 +165,18 @@ constexpr Texts copter_texts = [] {
     texts.banner = "ArduCopter V4.6.0 (mavloom sim)";
     texts.armed = "Arming motors";
     texts.disarmed = texts.disarmed_by_landing = texts.disarmed_without_takeoff = "Disarming motors";
+    texts.refusals.mode = "Arm: {} mode not armable";
+    texts.mode_refused = "Mode change to {} failed: init failed";
+    texts.battery_acts = "Battery Failsafe";
     texts.command_done = texts.loiter_time_done = "Reached command #{}";
     return texts;
 }();
 constexpr Texts plane_texts = [] {
     Texts texts = common_texts;
     texts.banner = "ArduPlane V4.6.0 (mavloom sim)";
+    texts.gcs_lost = "GCS Failsafe On: {}";
+    texts.gcs_regained = "GCS Failsafe Off";
+    texts.manual_lost = "RC Long Failsafe On: {}";
     texts.waypoint_reached = "Reached waypoint #{} dist {}m";
     texts.waypoint_passed = "Passed waypoint #{} dist {}m";
     texts.turns_done = "Loiter orbits complete";
@@ -184,6 +189,9 @@ constexpr Texts plane_texts = [] {
 constexpr Texts rover_texts = [] {
     Texts texts = common_texts;
     texts.banner = "ArduRover V4.6.0 (mavloom sim)";
+    texts.refusals.mode = "PreArm: Mode not armable";
+    texts.no_mission = "No Mission. Can't set AUTO.";
+    texts.fence_breached = texts.fence_cleared = {};
     texts.waypoint_reached = texts.waypoint_passed = "Reached waypoint #{}";
     texts.waypoint_held = "Reached waypoint #{}. Loiter for {} seconds";
     texts.loiter_time_done = "Finished active loiter";

@@ -5,11 +5,21 @@
 
 #include "flight/firmware/tables.hpp"
 #include "mavloom/message/modes.hpp"
+#include "mavloom/msg/enums/mav_type.hpp"
 
 namespace mavloom::flight {
 
 const Firmware& Firmware::of(Autopilot autopilot, Kind kind) {
     return autopilot == Autopilot::px4 ? px4_firmware(kind) : ardupilot_firmware(kind);
+}
+
+std::uint8_t Firmware::mav_type() const noexcept {
+    switch (kind_) {
+        case Kind::plane: return msg::MAV_TYPE_FIXED_WING;
+        case Kind::rover: return msg::MAV_TYPE_GROUND_ROVER;
+        case Kind::quad: break;
+    }
+    return msg::MAV_TYPE_QUADROTOR;
 }
 
 const ModeInfo* Firmware::find_mode(std::uint32_t custom_mode) const noexcept {

@@ -22,13 +22,20 @@ struct VersionInfo {
     std::uint16_t vendor = 0, product = 0;
 };
 
+// The texts by which a vehicle refuses to arm, where it has one for the reason. `{}` stands for the mode's name.
+struct Refusals {
+    std::string_view booting{}, position{}, home{}, battery{}, mode{}, mission{};
+    std::string_view compass_runs{}, compass_calibrated{}, accelerometer_runs{}, accelerometer_calibrated{};
+};
+
 // The texts that a vehicle sends. `{}` stands for a number or a mode's name. Where a firmware sends nothing, the text
 // is empty.
 struct Texts {
     std::string_view banner{};  // name and version, for a client that connects
     std::string_view armed{}, disarmed{}, disarmed_by_landing{}, disarmed_without_takeoff{};
     std::string_view takeoff_detected{}, landing_detected{};
-    std::string_view not_ready{}, no_position{}, not_in_mode{}, not_landed{};  // refusals
+    Refusals refusals{};
+    std::string_view not_ready{}, no_position{}, not_landed{};
     std::string_view mission_finished_landed{}, mission_finished_hold{}, no_mission{};
     std::string_view executing_mission{}, climb_to{};
     std::string_view mission_received{}, rally_received{};  // for the client that uploaded them
@@ -36,8 +43,9 @@ struct Texts {
     std::string_view waypoint_reached{}, waypoint_passed{}, waypoint_held{};  // number and distance, or seconds to wait
     std::string_view command_done{}, turns_done{}, loiter_time_done{}, loiter_altitude_done{}, takeoff_done{};
     std::string_view return_ordered{}, return_begins{}, return_lands{};
-    std::string_view battery_low{}, battery_critical{}, battery_emergency{};
-    std::string_view gcs_lost{}, gcs_regained{}, offboard_lost{}, manual_lost{}, fence_breached{};
+    std::string_view battery_low{}, battery_critical{}, battery_emergency{}, battery_acts{};  // volts and mAh
+    std::string_view gcs_lost{}, gcs_regained{}, offboard_lost{}, manual_lost{};  // the mode that the vehicle enters
+    std::string_view fence_breached{}, fence_cleared{};                           // the fences
     std::string_view unknown_mode{}, mode_refused{}, takeoff_too_low{}, offboard_without_setpoints{};
 };
 
@@ -51,7 +59,8 @@ public:
     [[nodiscard]] virtual Autopilot autopilot() const noexcept = 0;
     [[nodiscard]] bool is_px4() const noexcept { return autopilot() == Autopilot::px4; }
     [[nodiscard]] virtual std::uint8_t mav_autopilot() const noexcept = 0;  // MAV_AUTOPILOT
-    [[nodiscard]] virtual std::uint8_t mav_type() const noexcept = 0;       // MAV_TYPE
+    [[nodiscard]] Kind kind() const noexcept { return kind_; }
+    [[nodiscard]] std::uint8_t mav_type() const noexcept;  // MAV_TYPE
     [[nodiscard]] virtual std::uint64_t capabilities(const VehicleOptions& options) const noexcept = 0;
     [[nodiscard]] virtual const VersionInfo& version() const noexcept = 0;
     [[nodiscard]] virtual const Texts& texts() const noexcept = 0;
@@ -82,6 +91,12 @@ public:
     [[nodiscard]] virtual bool has_home_in_mission() const noexcept = 0;
     // The name that Texts::item_begins has for a MAV_CMD.
     [[nodiscard]] virtual std::string_view item_name(std::uint16_t /*command*/) const noexcept { return {}; }
+
+protected:
+    explicit Firmware(Kind kind) noexcept : kind_(kind) {}
+
+private:
+    Kind kind_;
 };
 
 }  // namespace mavloom::flight

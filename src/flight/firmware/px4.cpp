@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <array>
-
 #include "flight/firmware/tables.hpp"
 #include "mavloom/msg/enums/mav_autopilot.hpp"
 #include "mavloom/msg/enums/mav_mode_flag.hpp"
 #include "mavloom/msg/enums/mav_protocol_capability.hpp"
-#include "mavloom/msg/enums/mav_type.hpp"
 
 namespace mavloom::flight {
 
@@ -20,32 +17,26 @@ constexpr std::uint32_t sub_mission = 4;
 
 class Px4 final : public Firmware {
 public:
-    explicit Px4(Kind kind) noexcept : kind_(kind) {}
+    explicit Px4(Kind kind) noexcept : Firmware(kind) {}
     Autopilot autopilot() const noexcept override { return Autopilot::px4; }
     std::uint8_t mav_autopilot() const noexcept override { return msg::MAV_AUTOPILOT_PX4; }
-    std::uint8_t mav_type() const noexcept override {
-        constexpr std::array types{msg::MAV_TYPE_QUADROTOR, msg::MAV_TYPE_FIXED_WING, msg::MAV_TYPE_GROUND_ROVER};
-        return static_cast<std::uint8_t>(types[static_cast<std::size_t>(kind_)]);
-    }
     std::uint64_t capabilities(const VehicleOptions& options) const noexcept override;
     const VersionInfo& version() const noexcept override { return px4_version; }
     const Texts& texts() const noexcept override { return px4_texts(); }
-    std::span<const ModeInfo> modes() const noexcept override { return px4_modes(kind_); }
+    std::span<const ModeInfo> modes() const noexcept override { return px4_modes(kind()); }
     const ModeInfo& boot_mode() const noexcept override { return *mode_for(Behaviour::hold); }
     const ModeInfo* mode_for(Behaviour behaviour) const noexcept override;
     const ModeInfo* requested_mode(std::uint8_t base_mode, std::uint32_t main,
                                    std::uint32_t sub) const noexcept override;
-    std::span<const ParamInfo> parameters() const noexcept override { return px4_parameters(kind_); }
+    std::span<const ParamInfo> parameters() const noexcept override { return px4_parameters(kind()); }
     bool is_bytewise() const noexcept override { return true; }
-    Tuning tuning(const Parameters& parameters) const override { return px4_tuning(kind_, parameters); }
+    Tuning tuning(const Parameters& parameters) const override { return px4_tuning(kind(), parameters); }
     bool has_home_in_mission() const noexcept override { return false; }
 
 private:
     [[nodiscard]] const ModeInfo* numbered(std::uint32_t main, std::uint32_t sub) const noexcept {
         return find_mode(sub << 24 | main << 16);
     }
-
-    Kind kind_;
 };
 
 std::uint64_t Px4::capabilities(const VehicleOptions& options) const noexcept {
@@ -95,6 +86,7 @@ constexpr Texts px4_texts_table{
     .disarmed_without_takeoff = "Disarmed by auto preflight disarming",
     .takeoff_detected = "Takeoff detected",
     .landing_detected = "Landing detected",
+    .refusals = {.position = "Navigation error: No valid position estimate"},
     .not_ready = "Arming denied: Resolve system health failures first",
     .no_position = "Navigation error: No valid position estimate",
     .not_landed = "Disarming denied: not landed",

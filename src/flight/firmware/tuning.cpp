@@ -159,7 +159,7 @@ void read_px4_rover(const Reader& read, Tuning& t) {
                           std::tan(read.number("RA_MAX_STR_ANG", 0.5236, 0.05, 1.5));
 }
 
-// ArduPilot has two levels, with an action each. Without thresholds in mAh the vehicle only warns.
+// ArduPilot has two levels, with an action each. Without thresholds in mAh the vehicle only warns, at the first.
 FailsafeAction ardupilot_battery_action(int value) noexcept {
     using enum FailsafeAction;
     switch (value) {
@@ -176,8 +176,9 @@ void read_ardupilot_battery(const Reader& read, Tuning& t) {
     const double capacity = read.number("BATT_CAPACITY", 3300, 1, 1e6);
     const double low = read.number("BATT_LOW_MAH", 0, 0, capacity) / capacity;
     const double critical = read.number("BATT_CRT_MAH", 0, 0, capacity) / capacity;
-    if (low > 0) t.battery_low = t.battery_critical = low;
-    if (critical > 0) t.battery_emergency = critical;
+    if (low > 0) t.battery_low = low;
+    t.battery_critical = t.battery_low;
+    t.battery_emergency = critical;
     t.on_battery_critical = ardupilot_battery_action(low > 0 ? read.choice("BATT_FS_LOW_ACT", 0) : 0);
     t.on_battery_emergency = ardupilot_battery_action(critical > 0 ? read.choice("BATT_FS_CRT_ACT", 0) : 0);
 }
@@ -186,8 +187,8 @@ FailsafeAction ardupilot_gcs_loss(Kind kind, int enabled, int action) noexcept {
     using enum FailsafeAction;
     if (enabled == 0) return none;
     if (kind == Kind::quad) return enabled == 5 ? land : return_home;
-    if (kind == Kind::plane) return action == 0 ? none : return_home;
-    return action == 0 ? none : action == 2 ? hold : return_home;
+    if (kind == Kind::plane) return action == 0 ? warn : return_home;
+    return action == 0 ? warn : action == 2 ? hold : return_home;
 }
 
 // The bits of FENCE_TYPE: 1 greatest altitude, 2 circle around home, 4 polygons.

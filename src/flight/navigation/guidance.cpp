@@ -19,8 +19,6 @@ constexpr double shortest_final = 100, steepest_final = 0.2;  // m; metres down 
 constexpr double glide_ratio = 12;   // metres ahead for each metre of height, when a plane lands straight ahead
 constexpr double far_away = 10'000;  // m, the end of a plane's climb-out
 
-double horizontal_length(const Vector3& vector) noexcept { return std::hypot(vector.x(), vector.y()); }
-
 Vector3 along(double bearing, double distance) {
     return {std::cos(bearing) * distance, std::sin(bearing) * distance, 0};
 }

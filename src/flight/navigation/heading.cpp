@@ -17,7 +17,7 @@ void Heading::turn_to(double yaw, double rate) noexcept {
     if (std::isnan(ordered_)) keep();
 }
 
-void Heading::look_at(const std::optional<GeoPoint>& point) {
+void Heading::set_roi(const std::optional<GeoPoint>& point) {
     interest_ = point;
     if (point) interest_place_ = context_.craft.frame().to_local(*point);
     keep();

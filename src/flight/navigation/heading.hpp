@@ -17,8 +17,8 @@ public:
     void keep() noexcept { kept_ = context_.craft.estimate().euler.yaw; }
     // Carries out a client's order; a `nan` yaw ends it. `rate` in rad/s; `nan`: the usual rate.
     void turn_to(double yaw, double rate) noexcept;
-    void look_at(const std::optional<GeoPoint>& point);
-    void on_origin_moved() { look_at(interest_); }
+    void set_roi(const std::optional<GeoPoint>& point);
+    void on_origin_moved() { set_roi(interest_); }
 
     [[nodiscard]] const std::optional<GeoPoint>& interest() const noexcept { return interest_; }
     // Returns the yaw for a vehicle that has `way` left to its goal. `wanted` is the yaw of the manoeuvre; `nan`: any.

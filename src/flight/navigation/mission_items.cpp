@@ -17,7 +17,7 @@ namespace {
 
 using namespace msg;
 
-constexpr double most_height = 1e5;  // m; higher or lower places are at this height
+constexpr double max_height = 1e5;  // m; higher or lower places are at this height
 
 // Parameters may be NaN or infinite; a wait then lasts no time, or a day.
 double seconds_of(double value) noexcept { return std::isnan(value) ? 0 : std::clamp(value, 0.0, 86'400.0); }
@@ -175,9 +175,13 @@ bool MissionRunner::fly_landing() {
     if (stage_ == Stage::fresh) {
         if (context_.is_on_ground()) return true;
         const Vector3 spot = place();
-        enter(kind == Kind::plane ? Stage::act : Stage::travel);
-        if (kind == Kind::plane) guidance_.land(spot);
-        if (kind != Kind::plane) guidance_.go({spot.x(), spot.y(), context_.craft.estimate().position.z()}, yaw());
+        if (kind == Kind::plane) {
+            enter(Stage::act);
+            guidance_.land(spot);
+        } else {
+            enter(Stage::travel);
+            guidance_.go({spot.x(), spot.y(), context_.craft.estimate().position.z()}, yaw());
+        }
     }
     if (stage_ == Stage::travel && guidance_.is_near_goal(context_.tuning.acceptance_radius)) {
         guidance_.land(guidance_.goal(), yaw());
@@ -216,8 +220,8 @@ void MissionRunner::act_at_once() {
         case MAV_CMD_CONDITION_YAW: return turn();
         case MAV_CMD_DO_SET_ROI:
         case MAV_CMD_NAV_ROI:
-        case MAV_CMD_DO_SET_ROI_LOCATION: return look_at();
-        case MAV_CMD_DO_SET_ROI_NONE: return guidance_.heading().look_at({});
+        case MAV_CMD_DO_SET_ROI_LOCATION: return set_roi();
+        case MAV_CMD_DO_SET_ROI_NONE: return guidance_.heading().set_roi({});
         default: context_.observer.on_payload_item(item());
     }
 }
@@ -233,10 +237,10 @@ void MissionRunner::jump() {
     next_ = std::max(static_cast<std::uint16_t>(param(1)), first());
 }
 
-void MissionRunner::look_at() {
+void MissionRunner::set_roi() {
     auto point = position_of(item());
     if (point) point->altitude = context_.craft.frame().origin().altitude - altitude_z();
-    guidance_.heading().look_at(point);
+    guidance_.heading().set_roi(point);
 }
 
 void MissionRunner::turn() {
@@ -274,7 +278,7 @@ double MissionRunner::altitude_z() const noexcept {
     const Craft& craft = context_.craft;
     const double height = double{item().z};
     if (!std::isfinite(height)) return guidance_.goal().z();
-    const double bounded = std::clamp(height, -most_height, most_height);
+    const double bounded = std::clamp(height, -max_height, max_height);
     switch (item().frame) {
         case MAV_FRAME_GLOBAL:
         case MAV_FRAME_GLOBAL_INT: return craft.frame().origin().altitude - bounded;

@@ -11,9 +11,9 @@ namespace mavloom::flight {
 namespace {
 
 // Items that may act in one update. More of them wait for the next one, so that jumps cannot loop for ever.
-constexpr int most_items_at_once = 32;
+constexpr int max_items_at_once = 32;
 // ArduPilot ends a mission after so many items in a row that are no way to go.
-constexpr int most_actions_in_a_row = 255;
+constexpr int max_actions_in_a_row = 255;
 
 }  // namespace
 
@@ -94,7 +94,7 @@ void MissionRunner::update() {
         return;
     }
     if (!std::exchange(is_announced_, true)) context_.say(Severity::info, context_.texts().executing_mission);
-    for (int left = most_items_at_once; left > 0 && !is_complete_ && !wants_return_; --left) {
+    for (int left = max_items_at_once; left > 0 && !is_complete_ && !wants_return_; --left) {
         if (stage_ == Stage::fresh) report_begin(context_, index_, item());
         if (!fly()) return;
         finish_item();
@@ -113,7 +113,7 @@ void MissionRunner::finish_item() {
 }
 
 bool MissionRunner::is_endless() const noexcept {
-    return !context_.firmware.is_px4() && actions_in_a_row_ >= most_actions_in_a_row;
+    return !context_.firmware.is_px4() && actions_in_a_row_ >= max_actions_in_a_row;
 }
 
 void MissionRunner::complete() {

@@ -79,7 +79,7 @@ private:
 
     void act_at_once();
     void jump();
-    void look_at();
+    void set_roi();
     void turn();
     void set_home();
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -19,6 +20,11 @@ namespace mavloom::flight {
 
 inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 inline const Vector3 no_vector{nan, nan, nan};
+// True if an axis is given.
+[[nodiscard]] inline bool has_any(const Vector3& vector) noexcept { return !vector.array().isNaN().all(); }
+[[nodiscard]] inline double horizontal_length(const Vector3& vector) noexcept {
+    return std::hypot(vector.x(), vector.y());
+}
 
 // Steps of a vehicle: 250 Hz.
 inline constexpr Nanoseconds step_time = std::chrono::milliseconds{4};
@@ -44,6 +50,11 @@ enum class Steering : std::uint8_t {
     rates,       // body rates and thrust
     actuators,   // roll, pitch, yaw and thrust of the mixer, directly
 };
+
+// True if the vehicle steers itself to positions, velocities or accelerations.
+[[nodiscard]] constexpr bool steers_by_path(Steering steering) noexcept {
+    return steering == Steering::trajectory || steering == Steering::waypoint || steering == Steering::circle;
+}
 
 struct SpeedLimits {
     double horizontal = 5, up = 3, down = 1.5;  // m/s; for planes `horizontal` is the airspeed to hold

@@ -22,8 +22,9 @@ Battery::Battery(const BatteryOptions& options, bool charges_at_rest) noexcept
       hover_current_(options.capacity_mah / 1000 * 60 / options.hover_minutes),
       idle_current_(charges_at_rest ? standby_current : 0),
       charges_at_rest_(charges_at_rest),
-      used_mah_(options.capacity_mah * (1 - options.start_percent / 100)),
-      used_at_start_(used_mah_),
+      used_at_start_(options.capacity_mah * (1 - options.start_percent / 100)),
+      used_mah_(used_at_start_),
+      used_after_rest_(used_at_start_),
       cells_(options.cells) {}
 
 void Battery::step(double load, double dt) noexcept {
@@ -34,12 +35,17 @@ void Battery::step(double load, double dt) noexcept {
 }
 
 void Battery::set_remaining(double share) noexcept {
-    used_mah_ = used_at_start_ = capacity_mah_ * (1 - std::clamp(share, 0.0, 1.0));
+    used_mah_ = used_after_rest_ = capacity_mah_ * (1 - std::clamp(share, 0.0, 1.0));
 }
 
 void Battery::rest(double dt) noexcept {
     if (!charges_at_rest_) return;
-    used_mah_ = std::max(used_mah_ - charge_rate * capacity_mah_ * dt, std::min(used_mah_, used_at_start_));
+    used_mah_ = std::max(used_mah_ - charge_rate * capacity_mah_ * dt, std::min(used_mah_, used_after_rest_));
+}
+
+void Battery::replace() noexcept {
+    restore();
+    used_joule_ = current_ = average_current_ = 0;
 }
 
 double Battery::remaining() const noexcept { return std::max(0.0, 1 - used_mah_ / capacity_mah_); }

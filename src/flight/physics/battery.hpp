@@ -15,12 +15,14 @@ public:
 
     // `load` as in Airframe::load.
     void step(double load, double dt) noexcept;
-    // Sets the charge to `share` (0 to 1). From now on, `rest` stops at that level. For tests of fail-safes.
+    // Sets the charge to `share` (0 to 1). Until `restore`, `rest` stops at that level. For tests of fail-safes.
     void set_remaining(double share) noexcept;
+    // The charge is that at the start.
+    void restore() noexcept { used_mah_ = used_after_rest_ = used_at_start_; }
     // Call it while the vehicle is disarmed: charges for `dt` seconds, up to the charge at the start.
     void rest(double dt) noexcept;
-    // The charge at the start, after a boot.
-    void replace() noexcept { used_mah_ = used_at_start_; }
+    // After a boot: all is as at the start.
+    void replace() noexcept;
 
     [[nodiscard]] std::uint8_t cells() const noexcept { return cells_; }
     [[nodiscard]] double remaining() const noexcept;                    // 0 to 1
@@ -37,7 +39,8 @@ public:
 private:
     double capacity_mah_, hover_current_, idle_current_;  // A
     bool charges_at_rest_;
-    double used_mah_, used_at_start_, used_joule_ = 0, current_ = 0, average_current_ = 0;
+    double used_at_start_;  // never changes
+    double used_mah_, used_after_rest_, used_joule_ = 0, current_ = 0, average_current_ = 0;
     std::uint8_t cells_;
 };
 

@@ -25,8 +25,6 @@ SpeedLimits bounded(const SpeedLimits& given) noexcept {
     return limits;
 }
 
-double length_of(const Vector3& vector) { return std::hypot(vector.x(), vector.y()); }
-
 }  // namespace
 
 void Rover::place(const Vector3& position, double heading) {
@@ -64,10 +62,10 @@ Rover::Demand Rover::drive(const Setpoint& setpoint) const {
 
 Rover::Demand Rover::drive_along(const Setpoint& setpoint) const {
     const Vector3 leg = setpoint.position - setpoint.from;
-    if (!has_horizontal(setpoint.from) || length_of(leg) < 0.5) return drive_to(setpoint.position);
+    if (!has_horizontal(setpoint.from) || horizontal_length(leg) < 0.5) return drive_to(setpoint.position);
     if (!has_horizontal(setpoint.position)) return {};
     const Vector3 rest = setpoint.position - motion_.position;
-    const double remaining = (rest.x() * leg.x() + rest.y() * leg.y()) / length_of(leg);
+    const double remaining = (rest.x() * leg.x() + rest.y() * leg.y()) / horizontal_length(leg);
     if (remaining < arrived) return {};
     const double look_ahead = std::max(1.5, std::abs(speed_));
     const Course course = course_on_line(motion_, setpoint.from, setpoint.position, look_ahead);
@@ -79,7 +77,7 @@ Rover::Demand Rover::drive_along(const Setpoint& setpoint) const {
 Rover::Demand Rover::drive_to(const Vector3& place) const {
     if (!has_horizontal(place)) return {};
     const Vector3 rest = place - motion_.position;
-    const double distance = length_of(rest), bearing = direction_of(rest, heading_);
+    const double distance = horizontal_length(rest), bearing = direction_of(rest, heading_);
     const double off = std::abs(wrap_pi(bearing - heading_));
     const bool is_beside = off > 0.6 && off < pi - 0.6 && distance < 2 * limits_.turn_radius;
     if (distance < arrived || (is_beside && distance < limits_.turn_radius)) return {};
@@ -94,10 +92,10 @@ Rover::Demand Rover::drive_with(const Setpoint& setpoint) const {
         return {};
     }
     const Vector3& velocity = setpoint.velocity;
-    const double along = velocity.x() * std::cos(heading_) + velocity.y() * std::sin(heading_);
-    if (std::isfinite(setpoint.yaw_rate)) return turn(finite_or(setpoint.yaw_rate, 0, -4, 4), along);
-    if (std::isfinite(setpoint.yaw)) return turn_to(setpoint.yaw, 0, along);
-    const double speed = length_of(velocity);
+    const auto along = [&](double course) { return velocity.x() * std::cos(course) + velocity.y() * std::sin(course); };
+    if (std::isfinite(setpoint.yaw_rate)) return turn(finite_or(setpoint.yaw_rate, 0, -4, 4), along(heading_));
+    if (std::isfinite(setpoint.yaw)) return turn_to(setpoint.yaw, 0, along(setpoint.yaw));
+    const double speed = horizontal_length(velocity);
     return speed < 0.05 ? Demand{} : turn_to(direction_of(velocity, heading_), 0, speed);
 }
 

@@ -39,6 +39,7 @@ void Commander::reboot() {
     context_.armed = false;
     context_.armed_at = {};
     has_failsafe_ = has_flown_ = is_terminated_ = is_calibrating_ = keeps_home_ = false;
+    reboot_for_ = 0;
     mode_ = intended_ = &context_.firmware.boot_mode();
     navigator_.enter(mode_->behaviour);
     update();
@@ -59,7 +60,8 @@ std::uint32_t Commander::unready() const noexcept {
            bit(needs_position && !context_.craft.home(), unready_home) |
            bit(context_.craft.battery().remaining() < context_.tuning.battery_critical, unready_battery) |
            bit(!has_all_sensors, unready_sensors) | bit(is_calibrating_, unready_calibrating) |
-           bit(!context_.armed && !can_arm_in(mode_->behaviour), unready_mode) | bit(is_terminated_, unready_terminated);
+           bit(!context_.armed && !can_arm_in(mode_->behaviour), unready_mode) |
+           bit(is_terminated_, unready_terminated) | reboot_for_;
 }
 
 bool Commander::can_run(Behaviour behaviour) const noexcept {
@@ -89,7 +91,7 @@ SystemStatus Commander::status() const noexcept {
     if (is_terminated_) return SystemStatus::terminated;
     if (is_calibrating_) return SystemStatus::calibrating;
     if (context_.armed) return has_failsafe_ ? SystemStatus::critical : SystemStatus::active;
-    return unready() == 0 ? SystemStatus::standby : SystemStatus::uninitialised;
+    return (unready() & ~reboot_for_) == 0 ? SystemStatus::standby : SystemStatus::uninitialised;
 }
 
 // --- Arming
@@ -100,7 +102,7 @@ Outcome Commander::arm(bool force, OrderedBy /*by*/) {
     const Texts& texts = context_.texts();
     const Result refused = context_.firmware.is_px4() ? Result::temporarily_rejected : Result::failed;
     if (is_terminated_) return context_.refuse(refused, texts.not_ready);
-    if (reasons != 0 && !force) return context_.refuse(refused, refusal(reasons));
+    if (reasons != 0 && !force) return context_.refuse(refused, refusal(reasons), mode_->name);
     context_.armed = true;
     context_.armed_at = context_.now();
     has_flown_ = false;
@@ -110,10 +112,28 @@ Outcome Commander::arm(bool force, OrderedBy /*by*/) {
     return Result::accepted;
 }
 
+// The text of the first reason that has one.
 std::string_view Commander::refusal(std::uint32_t reasons) const noexcept {
-    const Texts& texts = context_.texts();
-    if ((reasons & unready_position) != 0 && !texts.no_position.empty()) return texts.no_position;
-    return reasons == unready_mode && !texts.not_in_mode.empty() ? texts.not_in_mode : texts.not_ready;
+    const Refusals& texts = context_.texts().refusals;
+    const bool calibrates_compass = (reasons & unready_calibrating) != 0 && (reasons & unready_compass_calibrated) != 0;
+    const std::pair<bool, std::string_view> candidates[]{
+        {calibrates_compass, texts.compass_runs},
+        {(reasons & unready_compass_calibrated) != 0, texts.compass_calibrated},
+        {(reasons & unready_calibrating) != 0, texts.accelerometer_runs},
+        {(reasons & unready_accelerometer_calibrated) != 0, texts.accelerometer_calibrated},
+        {(reasons & unready_position) != 0, texts.position},
+        {(reasons & unready_booting) != 0, texts.booting},
+        {(reasons & unready_home) != 0, texts.home},
+        {(reasons & unready_battery) != 0, texts.battery},
+        {reasons == unready_mode, mode_refusal()}};
+    for (const auto& [applies, text] : candidates)
+        if (applies && !text.empty()) return text;
+    return context_.texts().not_ready;
+}
+
+std::string_view Commander::mode_refusal() const noexcept {
+    const Refusals& texts = context_.texts().refusals;
+    return mode_->behaviour == Behaviour::mission && !can_run(Behaviour::mission) ? texts.mission : texts.mode;
 }
 
 bool Commander::may_disarm() const noexcept {
@@ -188,8 +208,11 @@ Outcome Commander::set_mode(const ModeInfo& mode, OrderedBy by) {
 Outcome Commander::refuse_mode(const ModeInfo& mode) const {
     const Texts& texts = context_.texts();
     const bool lacks_setpoints = mode.behaviour == Behaviour::offboard && !texts.offboard_without_setpoints.empty();
-    return context_.refuse(context_.firmware.is_px4() ? Result::temporarily_rejected : Result::failed,
-                           lacks_setpoints ? texts.offboard_without_setpoints : texts.mode_refused, mode.name);
+    const bool is_px4 = context_.firmware.is_px4();
+    if (!is_px4 && mode.behaviour == Behaviour::mission) context_.say(Severity::notice, texts.no_mission);
+    return context_.refuse(is_px4 ? Result::temporarily_rejected : Result::failed,
+                           lacks_setpoints ? texts.offboard_without_setpoints : texts.mode_refused, mode.name,
+                           is_px4 ? Severity::critical : Severity::warning);
 }
 
 void Commander::switch_to(const ModeInfo& mode) {

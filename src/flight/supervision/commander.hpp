@@ -26,6 +26,7 @@ public:
     void update();
     void reboot();
     void set_calibrating(bool calibrating) noexcept { is_calibrating_ = calibrating; }
+    void require_reboot(Unready reason) noexcept { reboot_for_ |= reason; }
     // Sets home until the vehicle boots again. Without this call, each arming sets home to where the vehicle is.
     Outcome set_home(const std::optional<GeoPoint>& point, double yaw);
 
@@ -40,6 +41,7 @@ public:
 
 private:
     [[nodiscard]] std::string_view refusal(std::uint32_t reasons) const noexcept;
+    [[nodiscard]] std::string_view mode_refusal() const noexcept;
     [[nodiscard]] bool is_booted() const noexcept;
     [[nodiscard]] bool can_arm_in(Behaviour behaviour) const noexcept;
     [[nodiscard]] bool may_disarm() const noexcept;
@@ -57,6 +59,7 @@ private:
     const ModeInfo* mode_;
     const ModeInfo* intended_;
     std::uint32_t flights_ = 0;
+    std::uint32_t reboot_for_ = 0;  // bits of Unready
     bool has_failsafe_ = false, has_flown_ = false, is_terminated_ = false, is_calibrating_ = false, keeps_home_ = false;
 };
 

@@ -22,13 +22,13 @@ private:
     // The findings of the last update.
     struct State {
         BatteryLevel battery = BatteryLevel::good;
-        bool lacks_ground_station = false, lacks_setpoints = false, lacks_sticks = false, lacks_position = false,
-             breaches_fence = false;
-        unsigned updates = 0;
+        bool lacks_ground_station = false, lacks_setpoints = false, lacks_sticks = false, lacks_position = false;
+        unsigned breaches = 0, updates = 0;
     };
 
     [[nodiscard]] BatteryLevel battery_level() const noexcept;
     void watch_battery();
+    void announce(BatteryLevel level) const;
     void watch_ground_station();
     void watch_setpoints();
     void watch_sticks();
@@ -36,6 +36,7 @@ private:
     void watch_fence();
     // Acts when the reason appears, and lets the vehicle continue when the reason is gone.
     void judge(bool& was_present, bool is_present, FailsafeAction action, std::string_view text);
+    [[nodiscard]] bool is_px4() const noexcept { return context_.firmware.is_px4(); }
 
     const FlightContext& context_;
     const Inputs& inputs_;

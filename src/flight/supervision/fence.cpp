@@ -60,14 +60,17 @@ void Fence::add(const PlanItem& item) {
     --missing_corners_;
 }
 
-bool Fence::is_breached() const { return is_enabled_ && (breaches_limits() || breaches_areas()); }
+unsigned Fence::breaches() const {
+    return is_enabled_ ? breached_limits() | (breaches_areas() ? breaches_polygon : 0u) : 0u;
+}
 
-bool Fence::breaches_limits() const {
-    if (!context_.craft.home()) return false;
+unsigned Fence::breached_limits() const {
+    if (!context_.craft.home()) return 0;
     const Vector3 way = context_.craft.estimate().position - context_.craft.home_place();
     const Tuning& tuning = context_.tuning;
-    return (tuning.fence_radius > 0 && std::hypot(way.x(), way.y()) > tuning.fence_radius) ||
-           (tuning.fence_height > 0 && -way.z() > tuning.fence_height);
+    const bool is_far = tuning.fence_radius > 0 && std::hypot(way.x(), way.y()) > tuning.fence_radius;
+    const bool is_high = tuning.fence_height > 0 && -way.z() > tuning.fence_height;
+    return (is_far ? breaches_circle : 0u) | (is_high ? breaches_height : 0u);
 }
 
 // Outside of all inclusions, or inside of an exclusion.

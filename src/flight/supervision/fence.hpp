@@ -16,8 +16,9 @@ public:
     // Call it after the plan or the origin changed.
     void rebuild();
     void enable(bool enabled) noexcept { is_enabled_ = enabled; }
-    // True if the vehicle is outside of the permitted area.
-    [[nodiscard]] bool is_breached() const;
+    // The fences that the vehicle is outside of, as bits.
+    enum Breach : unsigned { breaches_height = 1, breaches_circle = 2, breaches_polygon = 4 };
+    [[nodiscard]] unsigned breaches() const;
 
 private:
     using Point = Eigen::Vector2d;
@@ -30,7 +31,7 @@ private:
         [[nodiscard]] bool contains(const Point& point) const;
     };
 
-    [[nodiscard]] bool breaches_limits() const;
+    [[nodiscard]] unsigned breached_limits() const;
     [[nodiscard]] bool breaches_areas() const;
     void add(const PlanItem& item);
 

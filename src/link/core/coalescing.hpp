@@ -27,7 +27,7 @@ public:
     // small. So the interval then grows with the datagrams of a turn, and more frames share them.
     static constexpr std::int64_t many_sent = 2000;
     static constexpr Nanoseconds interval_per_datagram = std::chrono::microseconds{10};
-    static constexpr Nanoseconds longest_interval = std::chrono::milliseconds{5};
+    static constexpr Nanoseconds max_interval = std::chrono::milliseconds{5};
 
     struct Turn {
         MonoTime began{};
@@ -57,7 +57,7 @@ private:
     [[nodiscard]] Nanoseconds interval_after(std::size_t datagrams) const noexcept {
         if (sends_much_)
             return std::clamp<Nanoseconds>(static_cast<std::int64_t>(datagrams) * interval_per_datagram, turn_interval,
-                                           longest_interval);
+                                           max_interval);
         return is_busy_ ? turn_interval : Nanoseconds{};
     }
 

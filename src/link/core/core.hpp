@@ -4,13 +4,16 @@
 // link; single owner thread.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "link/core/border.hpp"
 #include "link/core/coalescing.hpp"
 #include "link/core/link_dialect.hpp"
 #include "link/core/link_events.hpp"
@@ -21,6 +24,7 @@
 #include "link/open_endpoint.hpp"
 #include "link/signing/signing_ids.hpp"
 #include "mavloom/net/event_loop.hpp"
+#include "mavloom/net/interfaces.hpp"
 #include "mavloom/net/udp.hpp"
 #include "mavloom/wire/parse_event.hpp"
 
@@ -42,7 +46,7 @@ public:
     }
 
 private:
-    void use(const LinkDialect& dialect) noexcept {
+    [[gnu::always_inline]] void use(const LinkDialect& dialect) noexcept {
         if (&dialect == dialect_) [[likely]]
             return;
         dialect_ = &dialect;
@@ -80,21 +84,27 @@ public:
         ++last_turn_.sent_datagrams;
     }
 
-    // `add_link` makes `link.name` unique, and assigns its id and dialect.
-    void add_link(Link& link);
+    // `add_link` makes `link.name` unique, and assigns its id, dialect and rank. `rank`: unless the link verifies.
+    void add_link(Link& link, Rank rank = Rank::own);
+    // The rank of a peer of an endpoint that listens.
+    [[nodiscard]] Rank rank_of(const endpoint::EndpointOptions& options, const net::Address& peer);
     void remove_link(Link& link, std::string_view why);
-    // Destroys the link at the end of the turn, because the link may still be running a callback.
-    void bury(std::unique_ptr<Link> link) { graveyard.push_back(std::move(link)); }
-
-    // From now on the owner counts loss, with `count_loss`.
-    void leave_loss_to_owner() noexcept { owner_counts_loss_ = true; }
-    static const wire::SequenceTracker::Update& count_loss(Link& link, const wire::FrameView& frame,
-                                                           const wire::MessageInfo* info) {
-        const auto& update = link.tracker.update(frame, info);
-        if (update.verdict != wire::SequenceTracker::Verdict::good) [[unlikely]]
-            link.counters.add(update);
-        return update;
+    // Gives an endpoint's present and future links these stages; an empty function removes them. Not during a turn.
+    void set_stages(EndpointId endpoint, CreateStages create);
+    void set_stages(Link& link, Stages stages);
+    // For a border that has nothing left to do. Destroys it at the end of the turn.
+    void remove_border(Link& link) {
+        tickers.forget(*link.border);
+        ended_borders.push_back(std::move(link.border));
     }
+    // Destroys the link at the end of the turn, because the link may still be running a callback.
+    void destroy_later(std::unique_ptr<Link> link) {
+        assert(!link->up && links.find(link->id) == nullptr && "it must be removed first");
+        ended_links.push_back(std::move(link));
+    }
+
+    // From now on the owner counts loss, with `RxFrame::loss`.
+    void leave_loss_to_owner() noexcept { owner_counts_loss_ = true; }
     // Handles what a link's parser found.
     void on_event(Link& link, const wire::ParseEvent& event, WallTime time) {
         if (event.kind == wire::ParseEvent::Kind::frame) [[likely]] {
@@ -112,12 +122,17 @@ public:
         OutgoingFrame outgoing(frame);
         return send(link, outgoing, now_);
     }
-    // Queues the frame unchanged, in the second lane.
-    static bool send_unverified(Link& link, OutgoingFrame& outgoing, MonoTime now) {
-        return queue(link, link.queue.lane(net::Lane::second), outgoing, outgoing.frame(), now);
+    // Queues the frame unchanged: one of a stranger in the second lane, others in the first.
+    static bool send_unsigned(Link& link, OutgoingFrame& outgoing, Rank from, MonoTime now) {
+        const auto lane = from == Rank::stranger ? net::Lane::second : net::Lane::first;
+        return queue(link, link.queue.lane(lane), outgoing, outgoing.frame(), now);
     }
 
+    // Queues bytes that have passed the stages.
+    static void push_staged(Link& link, const Piece& piece, MonoTime now);
+
 private:
+    void create_stages(Link& link);
     [[nodiscard]] static wire::FrameView signed_for(Link& link, const wire::FrameView& frame);
     static bool queue(Link& link, net::BlockQueue& lane, OutgoingFrame& outgoing, const wire::FrameView& frame,
                       MonoTime now);
@@ -137,13 +152,15 @@ public:
     // The parts, for the endpoints to use.
     wire::SourceBudget source_budget{16'384};  // of all links together: about 12 MiB at most
     LinkDialects dialects;
+    net::OwnAddresses own_addresses;
     LookUps look_ups;
+    std::map<EndpointId, CreateStages> stages;
     LinkTable links;
     LinkEvents events;
     Outlets outlets;
     Tickers tickers;
     Coalescing coalescing;
-    KeyStates key_states;
+    KeyStore key_store;
     SigningIds signing_ids;
     // Scratch memory for calls that read or write a socket.
     net::ReceiveBatch receive_batch;
@@ -153,7 +170,8 @@ public:
     // cache.
     static constexpr std::size_t stream_buffer_bytes = 128 * 1024;
     std::vector<std::uint8_t> stream_buffer;
-    std::vector<std::unique_ptr<Link>> graveyard;
+    std::vector<std::unique_ptr<Border>> ended_borders;
+    std::vector<std::unique_ptr<Link>> ended_links;
     OpenEndpoints endpoints;  // declared last and so destroyed first, because endpoints use the other parts
 };
 

@@ -14,14 +14,16 @@ namespace mavloom::link::detail {
 // Looks up links by id with one load. Ids increase and are never reused. `add` skips an id whose slot is still taken.
 class LinkTable {
 public:
-    LinkTable() : places_(64) {}
+    LinkTable() : slots_(64) {}
     // Assigns the link's id. If another link has the same name, appends " (2)" or a higher number.
     void add(Link& link);
     // Numbers the next links from `last` + 1.
     void count_from(LinkId last) noexcept { last_ = std::max(last_, last.value); }
+    // An id for something that is no link of this table.
+    [[nodiscard]] LinkId take_id() noexcept { return LinkId{++last_}; }
     void remove(LinkId id) noexcept;
     [[nodiscard]] Link* find(LinkId id) const noexcept {
-        Link* link = places_[id.value & (places_.size() - 1)];
+        Link* link = slots_[id.value & (slots_.size() - 1)];
         return link != nullptr && link->id == id ? link : nullptr;
     }
     // True while a link that is up has frames queued.
@@ -29,7 +31,7 @@ public:
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     template <class F>
     void each(F&& f) const {
-        for (Link* link : places_)
+        for (Link* link : slots_)
             if (link != nullptr) f(*link);
     }
 
@@ -37,7 +39,7 @@ private:
     [[nodiscard]] bool name_taken(const std::string& name) const noexcept;
     void grow();
 
-    std::vector<Link*> places_;  // size: a power of two; at most half used
+    std::vector<Link*> slots_;  // size: a power of two; at most half used
     std::size_t size_ = 0;
     std::uint32_t last_ = 0;
 };

@@ -2,10 +2,12 @@
 #include "link/core/outlets.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace mavloom::link::detail {
 
 void Outlets::flush() {
+    assert(flushing_.empty() && "an outlet must not flush the others");
     if (waiting_.empty()) return;
     flushing_.swap(waiting_);
     for (std::size_t i = 0; i < flushing_.size(); ++i) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cstddef>
 
@@ -11,18 +12,18 @@
 
 namespace mavloom::link::detail {
 
-// Counts datagrams or bytes. The limit falls at once and grows by `least` a turn, because a sender may mix cheap and
+// Counts datagrams or bytes. The limit falls at once and grows by `min` a turn, because a sender may mix cheap and
 // costly datagrams. The time to send the frames at the end of the turn is not measured.
 class ReadBudget {
 public:
-    ReadBudget(std::size_t least, std::size_t most) noexcept : least_(least), most_(most), limit_(most) {}
+    ReadBudget(std::size_t min, std::size_t max) noexcept : min_(min), max_(max), limit_(max) { assert(min <= max); }
 
     // How much to read in this turn.
     [[nodiscard]] std::size_t limit() const noexcept { return limit_; }
     // Calls `work`, which handles `count` datagrams or bytes, `bytes` bytes in total, and adjusts the limit to the time
     // that it took. A few bytes at the full limit are not timed.
     void spend(std::size_t count, std::size_t bytes, auto&& work) {
-        if (bytes < worth_measuring && limit_ == most_) return work();
+        if (bytes < worth_measuring && limit_ == max_) return work();
         const MonoTime begin = mono_now();
         work();
         note(count, mono_now() - begin);
@@ -30,14 +31,14 @@ public:
     // Adjusts the limit: `count` datagrams or bytes were handled in `took`.
     void note(std::size_t count, Nanoseconds took) noexcept {
         const auto fits = count * turn_share / static_cast<std::size_t>(std::max(took.count(), Nanoseconds::rep{1}));
-        limit_ = std::clamp(std::min(fits, limit_ + least_), least_, most_);
+        limit_ = std::clamp(std::min(fits, limit_ + min_), min_, max_);
     }
 
 private:
     static constexpr std::size_t worth_measuring = 4096;
     static constexpr std::size_t turn_share = 1'000'000;  // ns of a turn, for each socket
 
-    std::size_t least_, most_, limit_;
+    std::size_t min_, max_, limit_;
 };
 
 }  // namespace mavloom::link::detail

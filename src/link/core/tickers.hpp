@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Keeps the stream parsers that hold bytes back until a deadline. Private to module link; single owner thread.
+// Keeps the stream parsers and borders that hold bytes back until a deadline. Private to module link; single owner
+// thread.
 #pragma once
 
 #include <optional>
@@ -10,7 +11,7 @@
 
 namespace mavloom::link::detail {
 
-// A stream parser that holds bytes back. `tick` is called once its deadline has passed.
+// A stream parser or a border that holds bytes back. `tick` is called once its deadline has passed.
 class Ticker {
 public:
     virtual ~Ticker() = default;

@@ -33,8 +33,7 @@ struct Sender final : Link {
     MonoTime last_heard{};  // time of the last good frame
     std::uint64_t datagrams = 0;
 
-    [[nodiscard]] bool has_talked() const noexcept { return datagrams > 1; }
-    [[nodiscard]] MonoTime silent_since() const noexcept { return last_heard; }
+    [[nodiscard]] PeerPolicy::Candidate candidate() const noexcept { return {id, datagrams > 1, last_heard}; }
 };
 
 struct HashText {
@@ -43,15 +42,15 @@ struct HashText {
 };
 
 // Identifies the file at the socket's path. The socket's own descriptor does not reveal it.
-struct Place {
+struct FileId {
     dev_t device = 0;
     ino_t number = 0;
 
-    [[nodiscard]] static Place of(const std::filesystem::path& path) noexcept {
+    [[nodiscard]] static FileId of(const std::filesystem::path& path) noexcept {
         struct stat status {};
-        return ::lstat(path.c_str(), &status) == 0 ? Place{status.st_dev, status.st_ino} : Place{};
+        return ::lstat(path.c_str(), &status) == 0 ? FileId{status.st_dev, status.st_ino} : FileId{};
     }
-    friend bool operator==(const Place&, const Place&) = default;
+    friend bool operator==(const FileId&, const FileId&) = default;
 };
 
 class Inlet final : public OpenEndpoint, public net::IoHandler, public net::TimerHandler {
@@ -59,7 +58,7 @@ public:
     explicit Inlet(Opening& opening)
         : OpenEndpoint(opening),
           core_(opening.core),
-          stranger_(opening.core.dialects.of(opening.id).table),
+          newcomer_parser_(opening.core.dialects.of(opening.id).table),
           senders_(core_, *this) {}
     ~Inlet() override;
 
@@ -72,7 +71,7 @@ public:
 
 private:
     SetupResult<void> bind();
-    void look_at_place();
+    void check_socket();
     void take(const net::LocalDatagram& datagram);
     [[nodiscard]] Sender* sender_of(const net::LocalDatagram& datagram);
     [[nodiscard]] Sender* newcomer(const net::LocalDatagram& datagram);
@@ -80,16 +79,16 @@ private:
     [[nodiscard]] bool make_room();
     void drop(Sender& sender, std::string_view why);
 
-    static constexpr std::chrono::seconds idle{60}, look_interval{1};
+    static constexpr std::chrono::seconds idle{60}, check_interval{1};
 
     Core& core_;
     std::optional<net::LocalSocket> socket_;
     net::WatchId watch_;
     std::filesystem::path path_;
     unsigned mode_ = 0;
-    Place place_;
+    FileId bound_;
     bool reported_ = false;  // that the socket cannot be recreated
-    wire::DatagramParser stranger_;
+    wire::DatagramParser newcomer_parser_;
     PeerList<Sender> senders_;
     std::unordered_map<std::string, Sender*, HashText, std::equal_to<>> by_address_;
     Sender* last_ = nullptr;  // datagrams arrive in runs
@@ -121,7 +120,7 @@ SetupResult<void> Inlet::open(const std::filesystem::path& path, unsigned mode) 
     path_ = path;
     mode_ = mode;
     auto bound = bind();
-    if (bound) timer_ = core_.loop().start_timer(core_.now() + look_interval, *this);
+    if (bound) timer_ = core_.loop().start_timer(core_.now() + check_interval, *this);
     return bound;
 }
 
@@ -129,7 +128,7 @@ SetupResult<void> Inlet::bind() {
     if (auto taken = take_over(path_); !taken) return taken;
     auto socket = net::LocalSocket::open(path_, mode_);
     if (!socket) return tl::unexpected(std::move(socket).error());
-    place_ = Place::of(path_);
+    bound_ = FileId::of(path_);
     auto watch = core_.loop().watch(socket->fd(), true, false, *this);
     if (!watch) return tl::unexpected(std::move(watch).error());
     core_.loop().unwatch(watch_);
@@ -141,12 +140,12 @@ SetupResult<void> Inlet::bind() {
 Inlet::~Inlet() {
     core_.loop().cancel_timer(timer_);
     core_.loop().unwatch(watch_);
-    if (place_ != Place{} && place_ == Place::of(path_)) ::unlink(path_.c_str());
+    if (bound_ != FileId{} && bound_ == FileId::of(path_)) ::unlink(path_.c_str());
 }
 
 // Another program may have removed the socket or its folder.
-void Inlet::look_at_place() {
-    if (place_ == Place::of(path_)) return;
+void Inlet::check_socket() {
+    if (bound_ == FileId::of(path_)) return;
     const auto bound = bind();
     if (bound) core_.events.notice(info.id, fmt::format("inlet {} was removed; it is created again", path_.string()));
     else if (!reported_)
@@ -202,13 +201,13 @@ Sender* Inlet::newcomer(const net::LocalDatagram& datagram) {
     sender->name = fmt::format("{}#{}", info.label(), name_of(datagram.from));
     sender->last_heard = core_.now();
     by_address_.emplace(sender->address, sender.get());
-    return &senders_.add(std::move(sender));
+    return &senders_.add(std::move(sender), Rank::own);
 }
 
 // The checksum of a defined message proves a MAVLink sender. An id without definition does not.
 bool Inlet::holds_frame(ByteView datagram) {
     bool found = false;
-    stranger_.parse(datagram, [&](const wire::ParseEvent& event) {
+    newcomer_parser_.parse(datagram, [&](const wire::ParseEvent& event) {
         found = found || (event.kind == wire::ParseEvent::Kind::frame && event.info != nullptr);
     });
     return found;
@@ -216,10 +215,10 @@ bool Inlet::holds_frame(ByteView datagram) {
 
 bool Inlet::make_room() {
     if (!senders_.is_full()) return true;
-    Sender* const first = senders_.to_evict(core_.now());
-    if (first == nullptr) return false;
+    const auto first = PeerPolicy::to_evict(senders_.candidates(), core_.now());
+    if (!first) return false;
     counters.peers_evicted.add();
-    drop(*first, "too many senders, and this one was silent longest");
+    drop(*senders_.find(*first), "too many senders, and this one was silent longest");
     return true;
 }
 
@@ -230,9 +229,9 @@ void Inlet::drop(Sender& sender, std::string_view why) {
 }
 
 void Inlet::on_timer(MonoTime now) {
-    timer_ = core_.loop().start_timer(now + look_interval, *this);
+    timer_ = core_.loop().start_timer(now + check_interval, *this);
     senders_.expire(now, idle, [&](Sender& sender) { drop(sender, "idle"); });
-    look_at_place();
+    check_socket();
 }
 
 bool Inlet::close_link(LinkId link) {
@@ -243,7 +242,7 @@ bool Inlet::close_link(LinkId link) {
 
 }  // namespace
 
-SetupResult<std::unique_ptr<OpenEndpoint>> open_inlet(Opening opening, const std::filesystem::path& path, unsigned mode) {
+Opened open_inlet(Opening opening, const std::filesystem::path& path, unsigned mode) {
     auto inlet = std::make_unique<Inlet>(opening);
     if (auto done = inlet->open(path, mode); !done) return tl::unexpected(std::move(done.error()).within("inlet"));
     return inlet;

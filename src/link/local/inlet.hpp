@@ -13,7 +13,6 @@ inline constexpr std::string_view inlet_suffix = "in";  // suffix of the socket'
 
 // Opens the inlet and replaces a socket whose router is gone. Closing the endpoint removes the socket, if the path
 // still leads to it.
-[[nodiscard]] SetupResult<std::unique_ptr<OpenEndpoint>> open_inlet(Opening opening, const std::filesystem::path& path,
-                                                                    unsigned mode);
+[[nodiscard]] Opened open_inlet(Opening opening, const std::filesystem::path& path, unsigned mode);
 
 }  // namespace mavloom::link::detail

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // shm:// as a destination: sends frames to the inlet RUN/NAME.in, a Unix datagram socket that takes one whole frame
 // per datagram. The inlet comes and goes with its router. Queued frames survive its absence until they are too old.
-#include "link/local/shm.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +18,7 @@ namespace {
 // One byte, so that `gather` never adds a second frame to a datagram.
 constexpr std::size_t one_frame = 1;
 // Room for one frame: the queue stores each frame contiguously, so one piece is enough and the other is spare.
-constexpr std::size_t most_pieces = 2;
+constexpr std::size_t max_pieces = 2;
 
 class InletSender final : public OpenEndpoint, public Outlet, public net::IoHandler, public net::TimerHandler {
 public:
@@ -123,7 +121,7 @@ void InletSender::lose() {
     core_.loop().unwatch(watch_);
     socket_ = {};
     core_.events.mark_down(peer_, "the router is gone");
-    const bool worked = has_sent_ || core_.now() - up_since_ >= Retry::first;
+    const bool worked = has_sent_ || core_.now() - up_since_ >= Retry::initial_delay;
     if (!worked || !connect()) retry_.later();
 }
 
@@ -147,7 +145,7 @@ void InletSender::flush() {
 bool InletSender::fill(net::SendBatch& batch) {
     batch.clear();
     auto position = peer_.queue.front();
-    while (!batch.full() && batch.room().size() >= most_pieces) {
+    while (!batch.full() && batch.room().size() >= max_pieces) {
         const auto gathered = peer_.queue.gather(position, one_frame, batch.room());
         if (gathered.blocks == 0) break;
         batch.add(nullptr, gathered.pieces);
@@ -175,7 +173,7 @@ bool InletSender::submit(net::SendBatch& batch) {
 
 void InletSender::took(std::size_t frames) {
     has_sent_ = true;
-    std::array<iovec, most_pieces> pieces;
+    std::array<iovec, max_pieces> pieces;
     auto position = peer_.queue.front();
     for (; frames != 0; --frames) {
         const auto gathered = peer_.queue.gather(position, one_frame, pieces);
@@ -187,7 +185,7 @@ void InletSender::took(std::size_t frames) {
 
 // Drops a frame that the kernel rejects.
 void InletSender::skip_one() {
-    std::array<iovec, most_pieces> pieces;
+    std::array<iovec, max_pieces> pieces;
     auto position = peer_.queue.front();
     peer_.counters.frames_not_sent.add(peer_.queue.gather(position, one_frame, pieces).blocks);
     peer_.queue.pop(position);
@@ -204,7 +202,7 @@ SetupResult<void> check_inlet(const endpoint::Endpoint& endpoint) {
 
 }  // namespace
 
-SetupResult<std::unique_ptr<OpenEndpoint>> open_shm(Opening opening) {
+Opened open_shm(Opening opening) {
     const endpoint::Endpoint& endpoint = opening.endpoint;
     if (auto checked = check_inlet(endpoint); !checked) return tl::unexpected(std::move(checked.error()));
     auto inlet = std::make_unique<InletSender>(opening);

@@ -45,7 +45,7 @@ public:
     void fail(const SetupError& error) { retry_.fail(error); }
 
     std::size_t send(const wire::FrameView& frame) override { return peer_.up && core_.send(peer_, frame) ? 1 : 0; }
-    [[nodiscard]] std::size_t queued_bytes() const override { return peer_.queue.bytes(); }
+    [[nodiscard]] std::size_t queued_bytes() const override { return peer_.queued_bytes(); }
     void on_good_frame() override {
         if (automatic() && good_frames_ < 2) [[unlikely]]
             count_good_frame();
@@ -190,7 +190,7 @@ void Serial::watch_folders(bool on) {
 
 }  // namespace
 
-SetupResult<std::unique_ptr<OpenEndpoint>> open_serial(Opening opening) {
+Opened open_serial(Opening opening) {
     const endpoint::Endpoint& endpoint = opening.endpoint;
     auto opened = std::make_unique<Serial>(opening);
     auto done = opened->open();

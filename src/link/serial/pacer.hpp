@@ -36,11 +36,11 @@ private:
     static constexpr std::uint32_t bits_per_byte = 10;  // start bit, eight data bits, stop bit
     static constexpr std::chrono::milliseconds depth{50};
     static constexpr std::uint32_t fastest = 8'000'000;  // more than serial drivers reach over high-speed USB
-    static constexpr std::size_t least = 64;             // a typical driver's block size
+    static constexpr std::size_t min_budget = 64;        // a typical driver's block size
 
     [[nodiscard]] std::size_t budget() const noexcept {
         const std::uint64_t speed = std::max(bytes_per_s_, slowest_);
-        return std::max<std::size_t>(speed * depth.count() / 1000, least);
+        return std::max<std::size_t>(speed * depth.count() / 1000, min_budget);
     }
 
     std::uint32_t slowest_;

@@ -38,8 +38,8 @@ public:
     void flush() override;
     [[nodiscard]] bool blocked() const override { return pace_.valid() || StreamPeer::blocked(); }
 
-    // While the endpoint searches for the baud rate, the handler gets no frames.
     [[nodiscard]] static bool accepts(ByteView) noexcept { return true; }
+    // While the endpoint searches for the baud rate, the handler gets no frames.
     [[nodiscard]] bool wants(const wire::ParseEvent& event) {
         const bool is_frame = event.kind == wire::ParseEvent::Kind::frame;
         if (is_frame && event.info != nullptr) owner_.on_good_frame();
@@ -54,7 +54,5 @@ private:
     net::TimerId pace_;  // runs while the driver holds as many bytes as it may
     SerialPacer pacer_{0};
 };
-
-[[nodiscard]] SetupResult<std::unique_ptr<OpenEndpoint>> open_serial(Opening opening);
 
 }  // namespace mavloom::link::detail

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 
 #include "link/signing/signature.hpp"
 #include "mavloom/wire/crc.hpp"
@@ -11,9 +12,9 @@
 namespace mavloom::link::detail {
 
 SetupResult<std::unique_ptr<Signature>> Signature::load(const endpoint::EndpointOptions& options, std::uint8_t signs_as,
-                                                        KeyStates& states, std::vector<std::string>& notices) {
+                                                        KeyStore& store, std::vector<std::string>& notices) {
     if (options.sign_key_file.empty() && options.verify_key_file.empty()) return nullptr;
-    auto signature = std::make_unique<Signature>(states);
+    auto signature = std::make_unique<Signature>(store);
     if (!options.verify_key_file.empty()) {
         auto opened = signature->open(options.verify_key_file, notices);
         if (!opened) return tl::unexpected(std::move(opened).error());
@@ -25,6 +26,7 @@ SetupResult<std::unique_ptr<Signature>> Signature::load(const endpoint::Endpoint
         if (!opened) return tl::unexpected(std::move(opened).error());
         if (auto begun = signature->sign_with(std::move(*opened), signs_as); !begun)
             return tl::unexpected(std::move(begun).error());
+        signature->signs_own_ = options.signs_own;
     }
     return signature;
 }
@@ -32,17 +34,17 @@ SetupResult<std::unique_ptr<Signature>> Signature::load(const endpoint::Endpoint
 SetupResult<Signature::OpenKey> Signature::open(const std::string& path, std::vector<std::string>& notices) {
     auto key = wire::SigningKey::load(path);
     if (!key) return tl::unexpected(std::move(key).error());
-    return OpenKey{path, *key, states_.open(path, *key, notices)};
+    return OpenKey{path, *key, store_.open(path, *key, notices)};
 }
 
 // Endpoints with the same key share one verifier, so a frame that one of them accepted is a replay at the others. In
 // a group the same frame arrives over several links, sometimes late. There each endpoint has its own verifier, and
-// HeardFrames rejects frames that are too late.
+// SeenSignatures rejects frames that are too late.
 void Signature::verify_with(const OpenKey& with, bool in_group) {
-    verifying_key_ = states_.shared_key(with.key);
-    if (!states_.endpoints_are_independent) {
-        verifying_key_->heard.start();
-        states_.compares_heard = true;
+    verifying_key_ = store_.shared_key(with.key);
+    if (!store_.endpoints_are_independent) {
+        verifying_key_->compares_heard = true;
+        store_.compares_heard = true;
     }
     if (!in_group) return;
     own_.emplace(with.key);
@@ -51,9 +53,9 @@ void Signature::verify_with(const OpenKey& with, bool in_group) {
 
 SetupResult<void> Signature::sign_with(OpenKey with, std::uint8_t link_id) {
     const auto& [path, key, times] = sign_with_.emplace(std::move(with));
-    signing_key_ = states_.shared_key(key);
-    if (auto begun = KeyStates::begin_signing(*times); !begun) return begun;
-    signing_key_->own.sign_as(link_id);
+    signing_key_ = store_.shared_key(key);
+    if (auto begun = KeyStore::begin_signing(*times); !begun) return begun;
+    signing_key_->seen.sign_as(link_id);
     signs_as_ = link_id;
     signer_.emplace(key, link_id, times->state.last_signed);
     return {};
@@ -62,23 +64,23 @@ SetupResult<void> Signature::sign_with(OpenKey with, std::uint8_t link_id) {
 // Whether the frame is one that this process signed, and that somebody has sent back.
 bool Signature::is_own(const wire::FrameView& frame) const noexcept {
     if (!frame.is_signed()) return false;
-    if (states_.endpoints_are_independent && signs_as_ != frame.signature()[0]) return false;
-    return verifying_key_->own.has(frame);
+    if (store_.endpoints_are_independent && signs_as_ != frame.signature()[0]) return false;
+    return verifying_key_->seen.is_own(frame);
 }
 
-bool Signature::takes(const wire::FrameView& frame, wire::SigningTime now) {
+bool Signature::takes(const wire::FrameView& frame, wire::SigningTime time, MonoTime now) {
     is_repeated_ = false;
     if (is_own(frame)) return false;
-    const bool is_good = own_ ? takes_in_group(frame, now)
-                              : verifying_key_->verifier.verify(frame, now) == wire::Verifier::Verdict::good;
+    const bool is_good = own_ ? takes_in_group(frame, time)
+                              : verifying_key_->verifier.verify(frame, time) == wire::Verifier::Verdict::good;
     if (!is_good) return false;
-    const auto heard = verifying_key_->heard.hear(frame, mono_now());
-    is_repeated_ = heard == HeardFrames::Verdict::repeated;
-    return heard != HeardFrames::Verdict::too_late;
+    const auto heard = verifying_key_->seen.hear(frame, now);
+    is_repeated_ = heard == SeenSignatures::Verdict::repeated;
+    return heard != SeenSignatures::Verdict::too_late;
 }
 
-bool Signature::takes_in_group(const wire::FrameView& frame, wire::SigningTime now) {
-    if (own_->verify(frame, now) != wire::Verifier::Verdict::good) return false;
+bool Signature::takes_in_group(const wire::FrameView& frame, wire::SigningTime time) {
+    if (own_->verify(frame, time) != wire::Verifier::Verdict::good) return false;
     const auto stream = wire::Verifier::stream_of(frame);
     verifying_key_->verifier.restore(stream);
     return verifying_key_->verifier.last(stream.key) != wire::SigningTime{};  // else there was no place for the sender
@@ -86,7 +88,7 @@ bool Signature::takes_in_group(const wire::FrameView& frame, wire::SigningTime n
 
 Signature::~Signature() {
     keep_times();
-    states_.remove(*this);
+    store_.remove(*this);
 }
 
 bool Signature::has_other_keys() const {
@@ -111,18 +113,18 @@ void Signature::keep_times() const {
     }
 }
 
-bool Signature::accepts(const wire::FrameView& frame, WallTime now) noexcept {
+bool Signature::accepts(const wire::FrameView& frame, WallTime time, MonoTime now) noexcept {
     if (!verifying_key_) return true;
     if (accepted_ == frame.bytes().data()) {
         accepted_ = nullptr;
         is_repeated_ = false;
         return true;
     }
-    return takes(frame, wire::SigningTime::from(now));
+    return takes(frame, wire::SigningTime::from(time), now);
 }
 
-bool Signature::accepts_early(const wire::FrameView& frame, WallTime now) noexcept {
-    if (!accepts(frame, now) || is_repeated_) return false;
+bool Signature::accepts_early(const wire::FrameView& frame, WallTime time, MonoTime now) noexcept {
+    if (!accepts(frame, time, now) || is_repeated_) return false;
     accepted_ = frame.bytes().data();
     return true;
 }
@@ -135,6 +137,7 @@ static int crc_extra_of(const wire::FrameView& frame, std::uint16_t before_extra
 }
 
 wire::FrameView Signature::sign(const wire::FrameView& frame, const wire::MessageTable& table, WallTime now) noexcept {
+    assert(signer_.has_value() == (signing_key_ != nullptr));
     if (!signer_ || !frame.is_v2()) return frame;
     const std::size_t covered = frame.header_length() + frame.payload_length();
     const ByteView header_and_payload = frame.bytes().first(covered);
@@ -147,7 +150,7 @@ wire::FrameView Signature::sign(const wire::FrameView& frame, const wire::Messag
     store_le(buffer_.data() + covered, wire::crc_update(before_extra, static_cast<std::uint8_t>(extra)));
     const std::size_t size = signer_->sign(buffer_, covered + wire::checksum_length, wire::SigningTime::from(now));
     const auto signed_frame = wire::FrameView::unchecked(ByteView(buffer_).first(size));
-    signing_key_->own.note(signed_frame);
+    signing_key_->seen.note_signed(signed_frame);
     return signed_frame;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "link/signing/signing_ids.hpp"
 
+#include <cassert>
 #include <ranges>
 
 namespace mavloom::link::detail {
@@ -20,6 +21,7 @@ std::optional<std::uint8_t> SigningIds::choose(const std::string& label, Endpoin
 }
 
 void SigningIds::keep(const std::string& label, std::uint8_t link_id, EndpointId holder) {
+    assert(holder != uses_[link_id].holder || uses_[link_id].number == 0);
     uses_[link_id] = {label, holder, ++count_};
 }
 

@@ -3,12 +3,12 @@
 
 #include <utility>
 
-#include "link/signing/signature_state.hpp"
+#include "link/signing/key_store.hpp"
 
 namespace mavloom::link {
 
 struct SigningTimes::Impl {
-    detail::KeyStates states;
+    detail::KeyStore store;
     std::shared_ptr<detail::KeyFile> file;
 };
 
@@ -20,8 +20,8 @@ SigningTimes::~SigningTimes() = default;
 SetupResult<SigningTimes> SigningTimes::open(const std::filesystem::path& key_file, const wire::SigningKey& key,
                                              std::vector<std::string>& notices) {
     auto impl = std::make_unique<Impl>();
-    impl->file = impl->states.open(key_file, key, notices);
-    if (auto begun = detail::KeyStates::begin_signing(*impl->file); !begun)
+    impl->file = impl->store.open(key_file, key, notices);
+    if (auto begun = detail::KeyStore::begin_signing(*impl->file); !begun)
         return tl::unexpected(std::move(begun).error());
     return SigningTimes(std::move(impl));
 }
@@ -34,7 +34,7 @@ void SigningTimes::keep(wire::SigningTime last, MonoTime now, std::vector<std::s
         file.state.last_signed = last;
         file.changed = true;
     }
-    if (now >= impl_->states.due()) impl_->states.save(now, notices);
+    if (now >= impl_->store.due()) impl_->store.save(now, notices);
 }
 
 }  // namespace mavloom::link

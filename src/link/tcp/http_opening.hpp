@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -26,6 +27,7 @@ public:
     // Takes the next bytes of the stream. Do not call it again after another verdict than `undecided`.
     [[nodiscard]] Verdict note(ByteView bytes) noexcept {
         for (const std::uint8_t byte : bytes) {
+            assert(count_ < seen_.size() && "the last byte gave a verdict");
             seen_[count_++] = static_cast<char>(byte);
             if (const Verdict verdict = judge({seen_.data(), count_}); verdict != Verdict::undecided) return verdict;
         }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 
+#include "link/peer_policy.hpp"
 #include "link/stream_peer.hpp"
 #include "link/tcp/http_opening.hpp"
 #include "mavloom/net/tcp.hpp"
@@ -17,7 +18,7 @@ class TcpPeer;
 class TcpOwner {
 public:
     virtual ~TcpOwner() = default;
-    // Called when the stream has ended. The peer is detached and may be passed to Core::bury.
+    // Called when the stream has ended. The peer is detached and may be passed to Core::destroy_later.
     virtual void on_closed(TcpPeer& peer, std::string_view why) = 0;
     // Called when a client's first bytes are those of HTTP or TLS. Closes the client.
     virtual void on_http(TcpPeer&) {}
@@ -40,12 +41,13 @@ public:
         owner_.on_closed(*this, why);
     }
 
-    // A client that has sent no good frame is the first to make room, then one that has sent only copies.
-    [[nodiscard]] bool is_silent() const noexcept { return counters.frames_in.value() == 0; }
-    [[nodiscard]] bool has_talked() const noexcept { return counters.frames_in.value() != frames_repeated; }
-    [[nodiscard]] MonoTime silent_since() const noexcept { return has_talked() ? last_heard : connected_at; }
+    // Copies of frames that others have sent are no talk.
+    [[nodiscard]] PeerPolicy::Candidate candidate() const noexcept {
+        const bool has_talked = counters.frames_in.value() != frames_repeated;
+        return {id, has_talked, has_talked ? last_heard : connected_at, crowd};
+    }
     MonoTime connected_at{};
-    net::Address host;  // of a client of a tcpin: Address::host_part()
+    std::uint16_t crowd = 0;  // of a client of a tcpin
 
     // Watches for an HTTP request or TLS at the start of the stream. Call it for the clients of a tcpin.
     void refuse_http() noexcept { opening_ = HttpOpening(); }
@@ -69,8 +71,5 @@ private:
     TcpOwner& owner_;
     std::optional<HttpOpening> opening_;
 };
-
-[[nodiscard]] SetupResult<std::unique_ptr<OpenEndpoint>> open_tcpin(Opening opening);
-[[nodiscard]] SetupResult<std::unique_ptr<OpenEndpoint>> open_tcpout(Opening opening);
 
 }  // namespace mavloom::link::detail

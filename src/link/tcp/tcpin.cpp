@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 // tcpin: listens on a TCP port. Each client is its own link.
 #include <fmt/format.h>
-#include <optional>
 
-#include "link/admission.hpp"
 #include "link/peer_list.hpp"
 #include "link/resolve_and_open.hpp"
 #include "link/retry.hpp"
-#include "link/tcp/crowds.hpp"
 #include "link/tcp/tcp.hpp"
 #include "mavloom/endpoint/checks.hpp"
+#include "mavloom/net/port_holder.hpp"
 
 namespace mavloom::link::detail {
 
@@ -50,6 +48,7 @@ public:
           NameUser(opening.core.look_ups),
           core_(opening.core),
           peers_(core_, *this),
+          policy_(opening.endpoint.options.max_peers),
           retry_(opening.core, *this, *this) {}
     ~TcpIn() override {
         core_.loop().cancel_timer(pause_);
@@ -63,10 +62,7 @@ public:
     [[nodiscard]] std::size_t queued_bytes() const override { return peers_.queued_bytes(); }
     bool close_link(LinkId link) override;
     void on_resolved(net::Resolver::Answer&& answer) override;
-    void on_closed(TcpPeer& peer, std::string_view why) override {
-        crowds_.reset();
-        peers_.remove(peer, why);
-    }
+    void on_closed(TcpPeer& peer, std::string_view why) override { peers_.remove(peer, why); }
     void on_http(TcpPeer& peer) override;
     void on_timer(MonoTime now) override;
 
@@ -79,14 +75,10 @@ private:
     Core& core_;
     std::vector<std::unique_ptr<Listening>> listeners_;
     PeerList<TcpPeer> peers_;
-    Admission admission_{Admission::burst_for(0)};
-    // Of the clients as they are now, if somebody asked since the last change. To count them again takes long if there
-    // are many, so a turn does that for this many clients at most.
-    std::optional<Crowds<TcpPeer>> crowds_;
-    static constexpr std::size_t most_looks_at_peers = 1u << 15;
-    std::size_t looks_at_peers_ = 0;  // in this turn
+    PeerPolicy policy_;
     net::TimerId pause_, expiry_;
     Retry retry_;  // to look the name up again
+    net::BindErrors bind_errors_{net::Transport::tcp};
     bool reported_full_ = false, reported_http_ = false;
 };
 
@@ -95,9 +87,9 @@ void Listening::on_io(net::IoEvents) { owner_.accept_from(listener_); }
 SetupResult<void> TcpIn::open(const std::vector<net::Address>& addresses) {
     for (const net::Address& address : addresses) {
         const bool any_port = address.port() == 0 && info.local_port != 0;
-        auto listener = net::TcpListener::open(any_port ? address.with_port(info.local_port) : address,
-                                               addresses.size() > 1);
-        if (!listener) return tl::unexpected(std::move(listener).error());
+        const net::Address local = any_port ? address.with_port(info.local_port) : address;
+        auto listener = net::TcpListener::open(local, addresses.size() > 1);
+        if (!listener) return bind_errors_.complete(std::move(listener).error(), local);
         info.local_port = listener->local().port();
         auto listening = std::make_unique<Listening>(core_, *this, std::move(*listener));
         if (auto done = listening->start(); !done) return done;
@@ -117,8 +109,6 @@ void TcpIn::on_resolved(net::Resolver::Answer&& answer) {
 }
 
 void TcpIn::accept_from(net::TcpListener& listener) {
-    crowds_.reset();
-    looks_at_peers_ = 0;
     for (int i = 0; i < accepts_per_turn; ++i) {
         auto stream = listener.accept();
         if (stream) {
@@ -143,25 +133,15 @@ void TcpIn::admit(net::TcpStream stream) {
     auto peer = std::make_unique<TcpPeer>(core_, *this, info.id, info.endpoint.options);
     peer->name = fmt::format("{}#{}", info.label(), stream.remote().text());
     peer->connected_at = core_.now();
-    peer->host = stream.remote().host_part();
+    peer->crowd = PeerPolicy::crowd_of(stream.remote());
     peer->refuse_http();
-    if (peer->attach(std::move(stream))) peers_.add(std::move(peer));
+    const Rank rank = core_.rank_of(info.endpoint.options, stream.remote());
+    if (peer->attach(std::move(stream))) peers_.add(std::move(peer), rank);
 }
 
-// Closes a silent client for a newcomer. Only a full table does so, and only at a limited rate, unless the newcomer's
-// host has at least two silent clients fewer than another.
 bool TcpIn::make_room(const net::Address& newcomer) {
-    if (!crowds_) {
-        looks_at_peers_ += peers_.size();
-        if (looks_at_peers_ > most_looks_at_peers) return false;
-        crowds_.emplace(peers_.all());
-    }
-    const bool is_limited = !crowds_->has_room_for(newcomer.host_part());
-    if (is_limited && admission_.ask(newcomer, core_.now()) != Admission::Answer::admitted) return false;
-    const auto crowd = crowds_->largest();
-    TcpPeer* const first = crowd.size != 0 ? crowd.longest_silent : peers_.to_evict(core_.now());
+    TcpPeer* const first = peers_.to_close_for(newcomer, policy_, core_.now());
     if (first == nullptr) return false;
-    if (is_limited) admission_.note_entry();
     counters.peers_evicted.add();
     first->close("max_peers is reached, and this client was silent longest");
     return true;
@@ -212,8 +192,6 @@ void TcpIn::expire(MonoTime now) {
 
 }  // namespace
 
-SetupResult<std::unique_ptr<OpenEndpoint>> open_tcpin(Opening opening) {
-    return open_listening<TcpIn>(std::move(opening));
-}
+Opened open_tcpin(Opening opening) { return open_listening<TcpIn>(std::move(opening)); }
 
 }  // namespace mavloom::link::detail

@@ -51,7 +51,7 @@ public:
     }
 
     std::size_t send(const wire::FrameView& frame) override { return peer_.up && core_.send(peer_, frame) ? 1 : 0; }
-    [[nodiscard]] std::size_t queued_bytes() const override { return peer_.queue.bytes(); }
+    [[nodiscard]] std::size_t queued_bytes() const override { return peer_.queued_bytes(); }
     void on_resolved(net::Resolver::Answer&& answer) override;
     void on_closed(TcpPeer& peer, std::string_view why) override;
     void on_io(net::IoEvents events) override;
@@ -172,8 +172,6 @@ SetupResult<void> TcpOut::connect_and_wait(const net::Resolver::Answer& answer) 
 
 }  // namespace
 
-SetupResult<std::unique_ptr<OpenEndpoint>> open_tcpout(Opening opening) {
-    return open_destination<TcpOut>(std::move(opening));
-}
+Opened open_tcpout(Opening opening) { return open_destination<TcpOut>(std::move(opening)); }
 
 }  // namespace mavloom::link::detail

@@ -3,6 +3,7 @@
 // because datagrams arrive in runs. Look-ups do not allocate. Private to module link; single owner thread.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <vector>
 
@@ -26,7 +27,9 @@ public:
     // The address must not be in the table yet.
     void add(const net::Address& address, Peer& peer) {
         if ((size_ + 1) * 2 > slots_.size()) grow();
-        slots_[place_of(address)] = {address, &peer};
+        Slot& slot = slots_[place_of(address)];
+        assert(slot.peer == nullptr);
+        slot = {address, &peer};
         ++size_;
     }
 
@@ -34,6 +37,7 @@ public:
     void remove(const net::Address& address) noexcept {
         std::size_t gap = place_of(address);
         if (slots_[gap].peer == nullptr) return;
+        assert(size_ > 0);
         last_ = {};
         --size_;
         slots_[gap].peer = nullptr;

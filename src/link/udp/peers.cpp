@@ -25,11 +25,12 @@ bool UdpPeers::is_from_a_peer(const net::Datagram& datagram) {
     const bool verifies = signature != nullptr && signature->verifies();
     bool found = false;
     std::uint64_t refused = 0;
-    constexpr std::size_t most_bytes = 300;  // the longest frame has 280
-    const auto beginning = datagram.bytes.first(std::min(datagram.bytes.size(), most_bytes));
-    stranger_.parse(beginning, [&](const wire::ParseEvent& event) {
+    constexpr std::size_t max_bytes = 300;  // the longest frame has 280
+    const auto beginning = datagram.bytes.first(std::min(datagram.bytes.size(), max_bytes));
+    newcomer_parser_.parse(beginning, [&](const wire::ParseEvent& event) {
         if (found || event.kind != wire::ParseEvent::Kind::frame) return;
-        found = verifies ? signature->accepts_early(event.frame, receive_time(datagram)) : event.info != nullptr;
+        found = verifies ? signature->accepts_early(event.frame, receive_time(datagram), core_.now())
+                         : event.info != nullptr;
         if (verifies && !found && !signature->is_repeated()) ++refused;
     });
     if (!found) endpoint_.counters.gone.bad_signature.add(refused);
@@ -38,22 +39,22 @@ bool UdpPeers::is_from_a_peer(const net::Datagram& datagram) {
 
 bool UdpPeers::is_own_port(const UdpPort& port, std::uint16_t number) const {
     if (number == port.socket().local().port()) return true;
-    return !core_.key_states.endpoints_are_independent && core_.endpoints.has_udp_port(number);
+    return !core_.key_store.endpoints_are_independent && core_.endpoints.has_udp_port(number);
 }
 
 // Such a source is forged: nobody could receive an answer there, or a socket of this process or a whole network would.
 bool UdpPeers::may_be_peer(const UdpPort& port, const net::Address& sender) {
     const net::Address from = sender.unmapped();
     if (from.port() == 0 || from.is_any() || from.is_multicast()) return false;
-    if (is_own_port(port, from.port()) && own_.contains(from, core_.now())) return false;
-    return !own_.has_broadcast(from, core_.now());
+    if (is_own_port(port, from.port()) && core_.own_addresses.contains(from, core_.now())) return false;
+    return !core_.own_addresses.has_broadcast(from, core_.now());
 }
 
 bool UdpPeers::may_enter(const net::Address& sender) {
-    const auto answer = admission_.ask(sender, core_.now());
-    if (answer == Admission::Answer::refused) endpoint_.counters.peers_refused.add();
-    if (answer == Admission::Answer::limited) endpoint_.counters.peers_limited.add();
-    return answer == Admission::Answer::admitted;
+    const auto answer = policy_.ask(sender, core_.now());
+    if (answer == PeerPolicy::Answer::refused) endpoint_.counters.peers_refused.add();
+    if (answer == PeerPolicy::Answer::limited) endpoint_.counters.peers_limited.add();
+    return answer == PeerPolicy::Answer::admitted;
 }
 
 UdpPeer* UdpPeers::newcomer(UdpPort& port, const net::Datagram& datagram) {
@@ -66,7 +67,7 @@ UdpPeer* UdpPeers::newcomer(UdpPort& port, const net::Datagram& datagram) {
         endpoint_.counters.stray_bytes.add(datagram.bytes.size());
         return nullptr;
     }
-    admission_.note_entry();
+    policy_.note_entry(core_.now());
     if (!make_room(*datagram.from)) {
         endpoint_.counters.peers_refused.add();
         return nullptr;
@@ -76,42 +77,36 @@ UdpPeer* UdpPeers::newcomer(UdpPort& port, const net::Datagram& datagram) {
                                           *datagram.from);
     peer->name = fmt::format("{}#{}", info.label(), datagram.from->text());
     peer->last_heard = peer->first_heard = core_.now();  // until its first frame is found
-    if (must_confirm(*datagram.from)) peer->give_allowance();
+    const Rank rank = core_.rank_of(info.endpoint.options, *datagram.from);
+    // A stranger may have forged its address, so it gets little before it repeats itself.
+    if (rank == Rank::stranger && !verifies()) peer->give_allowance();
     else note_confirmed(*peer);
     port.peers().add(*datagram.from, *peer);
     if (!expiry_.valid()) expiry_ = core_.loop().start_timer(core_.now() + idle_, *this);
-    return &peers_.add(std::move(peer));
-}
-
-// Returns true if the sender's address may be forged: then the peer gets little before it repeats itself.
-bool UdpPeers::must_confirm(const net::Address& sender) const {
-    const auto& options = endpoint_.info.endpoint.options;
-    return !sender.is_loopback() && !options.trusted && !verifies();
+    return &peers_.add(std::move(peer), rank);
 }
 
 bool UdpPeers::verifies() const { return endpoint_.signature && endpoint_.signature->verifies(); }
 
 bool UdpPeers::make_room(const net::Address& newcomer) {
     if (!peers_.is_full()) return true;
-    UdpPeer* const first = peers_.to_evict(core_.now());
-    if (first == nullptr) return displace_for(newcomer);
-    endpoint_.counters.peers_evicted.add();
-    drop(*first, "max_peers is reached, and this peer was silent longest");
+    auto candidates = peers_.candidates();
+    if (const auto silent = PeerPolicy::to_evict(candidates, core_.now())) {
+        endpoint_.counters.peers_evicted.add();
+        drop(*peers_.find(*silent), "max_peers is reached, and this peer was silent longest");
+        return true;
+    }
+    // All peers are active. Verified ones keep their places.
+    if (!policy_.repeats(newcomer, core_.now()) || verifies()) return false;
+    const auto active = policy_.to_displace(std::move(candidates), core_.now());
+    if (!active) return false;
+    endpoint_.counters.peers_displaced.add();
+    drop(*peers_.find(*active), "max_peers is reached, and others wait");
     return true;
 }
 
 void UdpPeers::note_confirmed(const UdpPeer& peer) {
     if (++confirmed_ == 1) owner_.on_first_confirmed(peer.address);
-}
-
-// All peers talk. Verified ones keep their places.
-bool UdpPeers::displace_for(const net::Address& newcomer) {
-    if (!admission_.note_and_check_repeat(newcomer, core_.now()) || verifies()) return false;
-    UdpPeer* const peer = displacement_.choose(peers_.all(), core_.now());
-    if (peer == nullptr) return false;
-    endpoint_.counters.peers_displaced.add();
-    drop(*peer, "max_peers is reached, and others wait");
-    return true;
 }
 
 void UdpPeers::drop(UdpPeer& peer, std::string_view why) {

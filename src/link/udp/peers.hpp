@@ -6,11 +6,8 @@
 
 #include <string_view>
 
-#include "link/admission.hpp"
-#include "link/displacement.hpp"
 #include "link/peer_list.hpp"
 #include "link/udp/udp.hpp"
-#include "mavloom/net/interfaces.hpp"
 
 namespace mavloom::link::detail {
 
@@ -25,8 +22,8 @@ public:
         virtual void on_last_confirmed_gone() {}
         // A program on this machine may invent many peers, and a frame to each of them costs several system calls if
         // its port is closed. So such a peer gets little. Over a network, anybody can forge such a report.
-        void on_refused(UdpPeer& peer, const net::Address& reporter, MonoTime now) final {
-            if (peer.address.is_loopback() && reporter.is_loopback()) peer.pause_sending(now);
+        void on_refused(UdpPeer& peer, const net::Address& reporter) final {
+            if (peer.address.is_loopback() && reporter.is_loopback()) peer.pause();
         }
     };
 
@@ -37,8 +34,8 @@ public:
           endpoint_(endpoint),
           owner_(owner),
           idle_(endpoint.info.endpoint.options.idle.value_or(default_idle)),
-          stranger_(core.dialects.of(endpoint.info.id).table),
-          admission_(Admission::burst_for(endpoint.info.endpoint.options.max_peers)),
+          newcomer_parser_(core.dialects.of(endpoint.info.id).table),
+          policy_(endpoint.info.endpoint.options.max_peers),
           peers_(core, endpoint) {}
     ~UdpPeers() override;
 
@@ -63,20 +60,16 @@ private:
     [[nodiscard]] bool may_be_peer(const UdpPort& port, const net::Address& sender);
     [[nodiscard]] bool may_enter(const net::Address& sender);
     [[nodiscard]] bool is_from_a_peer(const net::Datagram& datagram);
-    [[nodiscard]] bool must_confirm(const net::Address& sender) const;
     [[nodiscard]] bool verifies() const;
     [[nodiscard]] bool make_room(const net::Address& newcomer);
-    [[nodiscard]] bool displace_for(const net::Address& newcomer);
     void drop(UdpPeer& peer, std::string_view why);
 
     Core& core_;
     OpenEndpoint& endpoint_;
     Owner& owner_;
     Nanoseconds idle_;
-    wire::DatagramParser stranger_;
-    Admission admission_;
-    net::OwnAddresses own_;
-    Displacement displacement_;
+    wire::DatagramParser newcomer_parser_;
+    PeerPolicy policy_;
     PeerList<UdpPeer> peers_;
     std::size_t confirmed_ = 0;  // peers
     net::TimerId expiry_;

@@ -8,13 +8,18 @@ namespace mavloom::link::detail {
 
 // Start a datagram only with room for this many pieces. Frames are contiguous in the queue, so few are needed. A
 // datagram that would need more is cut short here.
-static constexpr std::size_t fewest_pieces = 64;
+static constexpr std::size_t min_pieces = 64;
 // An ICMP error of an earlier datagram makes the next send fail without being tried. More errors may arrive between
 // attempts, so a send is tried up to this many times.
-static constexpr int most_refusals = 3;
+static constexpr int max_refusals = 3;
 static constexpr std::chrono::milliseconds retry_after{1};
+static constexpr std::size_t most_unsplit = 1500 - 20 - 8;  // MTU of Ethernet, less the headers of IPv4 and UDP
 
 void UdpPeer::schedule() { port->schedule(*this); }
+
+void UdpPeer::hear(ByteView bytes, WallTime time) {
+    if (up) port->hear(*this, bytes, time);
+}
 
 bool UdpPeer::note_heard(MonoTime now, std::size_t bytes) noexcept {
     bool confirms = false;
@@ -26,29 +31,26 @@ bool UdpPeer::note_heard(MonoTime now, std::size_t bytes) noexcept {
     last_heard = now;
     ++datagrams;
     listens_ = true;
-    refuses_until_ = {};
-    resume();
+    end_refusal();
     return confirms;
 }
-
-void UdpPeer::pause_sending(MonoTime now) noexcept { pause(now + refusal_holds); }
 
 void UdpPeer::move_to(const net::Address& where) noexcept {
     if (where == address) return;
     address = where;
     listens_ = false;
-    refuses_until_ = {};
+    end_refusal();
 }
 
 void UdpPeer::note_refusal(MonoTime now) noexcept {
     listens_ = false;
-    refuses_until_ = now + refusal_holds;
+    begin_refusal(now + refusal_holds);
     counters.refused.add(std::exchange(unsettled_frames_, 0));
     unsettled_bytes_ = 0;
 }
 
 void UdpPeer::count_sent(std::uint32_t frames, std::uint32_t bytes, MonoTime now) noexcept {
-    if (now < refuses_until_) return counters.refused.add(frames);
+    if (is_refused(now)) return counters.refused.add(frames);
     unsettled_frames_ += frames;
     unsettled_bytes_ += bytes;
     if (listens_) settle();
@@ -68,10 +70,8 @@ UdpPort::~UdpPort() {
 }
 
 SetupResult<void> UdpPort::open(const net::Address& local, const net::UdpOptions& options) {
-    auto wanted = options;
-    wanted.names_holder = !std::exchange(tried_, true);
-    auto socket = net::UdpSocket::open(local, wanted);
-    if (!socket) return tl::unexpected(std::move(socket).error());
+    auto socket = net::UdpSocket::open(local, options);
+    if (!socket) return owner_.bind_errors.complete(std::move(socket).error(), local);
     auto watch = core_.loop().watch(socket->fd(), true, false, *this);
     if (!watch) return tl::unexpected(std::move(watch).error());
     core_.loop().unwatch(watch_);
@@ -116,7 +116,7 @@ void UdpPort::take_failures() {
         UdpPeer* const peer = nobody_there ? owner_.find_peer(*this, failure->to) : nullptr;
         if (peer != nullptr) {
             peer->note_refusal(core_.now());
-            owner_.on_refused(*peer, failure->reporter, core_.now());
+            owner_.on_refused(*peer, failure->reporter);
         }
         owner_.on_send_error(failure->error);
     }
@@ -151,18 +151,34 @@ void UdpPort::receive() {
     budget_.spend(*count, batch.bytes(), [&] { receive(batch); });
 }
 
+[[gnu::always_inline]] inline void UdpPort::parse(UdpPeer& peer, ByteView bytes, WallTime time) {
+    const std::uint64_t frames_before = peer.counters.frames_in.value();
+    peer.parser.parse(bytes, [&](const wire::ParseEvent& event) { core_.on_event(peer, event, time); });
+    peer.counters.implausible_unknown.set(peer.parser.counters().implausible_unknown.value());
+    if (peer.counters.frames_in.value() == frames_before) return;
+    if (peer.note_heard(core_.now(), bytes.size())) [[unlikely]]
+        owner_.on_confirmed(peer);
+}
+
+[[gnu::cold]] void UdpPort::hear(UdpPeer& peer, ByteView bytes, WallTime time) { parse(peer, bytes, time); }
+
+[[gnu::noinline]] static void pass_stages(UdpPeer& peer, ByteView bytes, WallTime time) {
+    peer.border->take(Way::in, {.bytes = bytes, .time = time});
+}
+
 void UdpPort::receive(const net::ReceiveBatch& batch) {
     for (std::size_t i = 0; i < batch.size(); ++i) {
         const net::Datagram datagram = batch[i];
+        if (datagram.bytes.size() > most_unsplit) [[unlikely]]
+            counters_.long_datagrams.add();
         UdpPeer* const peer = owner_.peer_of(*this, datagram);
         if (peer == nullptr) continue;
         const WallTime time = receive_time(datagram);
-        const std::uint64_t frames_before = peer->counters.frames_in.value();
-        peer->parser.parse(datagram.bytes, [&](const wire::ParseEvent& event) { core_.on_event(*peer, event, time); });
-        peer->counters.implausible_unknown.set(peer->parser.counters().implausible_unknown.value());
-        if (peer->counters.frames_in.value() == frames_before) continue;
-        if (peer->note_heard(core_.now(), datagram.bytes.size())) [[unlikely]]
-            owner_.on_confirmed(*peer);
+        if (peer->border) [[unlikely]] {
+            pass_stages(*peer, datagram.bytes, time);
+        } else {
+            parse(*peer, datagram.bytes, time);
+        }
     }
 }
 
@@ -179,7 +195,7 @@ void UdpPort::flush() {
         UdpPeer& peer = *waiting_[i];
         auto position = peer.queue.front();
         while (!peer.held) {
-            if ((batch.full() || batch.room().size() < fewest_pieces) && (!submit() || peer.held)) break;
+            if ((batch.full() || batch.room().size() < min_pieces) && (!submit() || peer.held)) break;
             const auto gathered = peer.queue.gather(position, mtu_bytes_, batch.room());
             if (gathered.blocks == 0) break;
             batch.add(&peer.address, gathered.pieces);
@@ -198,6 +214,7 @@ void UdpPort::flush() {
 // Sends the batch. Returns false if the kernel accepts no more for now. Unsent datagrams stay queued.
 bool UdpPort::submit() {
     net::SendBatch& batch = core_.send_batch;
+    assert(parts_.size() == batch.size() && "each datagram has its part");
     int refusals = 0;
     for (std::size_t first = 0; first < batch.size();) {
         const auto sent = socket_.send(batch, first);
@@ -218,6 +235,7 @@ bool UdpPort::submit() {
 void UdpPort::account(const Part& part) noexcept {
     core_.note_datagram(part.frames);
     if (part.peer == nullptr) return;
+    assert(!part.peer->held && "its datagrams keep their order");
     UdpPeer& peer = *part.peer;
     peer.queue.pop(part.until);
     if (unsettled_turn_ != core_.turns()) settle_sent();
@@ -231,7 +249,7 @@ void UdpPort::recover(std::size_t& index, net::IoError error, int& refusals) {
     if (error == net::IoError::would_block) return block();
     if (error == net::IoError::no_buffers) return hold(index);
     if (error == net::IoError::refused) take_failures();
-    if (error == net::IoError::refused && ++refusals < most_refusals) return;
+    if (error == net::IoError::refused && ++refusals < max_refusals) return;
     refusals = 0;
     counters_.send_errors.add();
     if (const Part& part = parts_[index]; part.peer != nullptr) {

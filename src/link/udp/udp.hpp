@@ -9,7 +9,9 @@
 
 #include "link/core/core.hpp"
 #include "link/core/read_budget.hpp"
+#include "link/peer_policy.hpp"
 #include "link/udp/peer_table.hpp"
+#include "mavloom/net/port_holder.hpp"
 #include "mavloom/net/udp.hpp"
 #include "mavloom/wire/datagram_parser.hpp"
 
@@ -22,6 +24,7 @@ struct UdpPeer final : Link {
             const net::Address& a)
         : Link(owner, options), port(&p), address(a), parser(table) {}
     void schedule() override;
+    void hear(ByteView bytes, WallTime time) override;
 
     UdpPort* port;
     net::Address address;
@@ -37,13 +40,10 @@ struct UdpPeer final : Link {
     [[nodiscard]] bool note_heard(MonoTime now, std::size_t bytes) noexcept;
     [[nodiscard]] bool is_confirmed() const noexcept { return !has_allowance(); }
     // One datagram may be forged; a peer talks from the second on.
-    [[nodiscard]] bool has_talked() const noexcept { return datagrams > 1; }
-    [[nodiscard]] MonoTime silent_since() const noexcept { return last_heard; }
+    [[nodiscard]] PeerPolicy::Candidate candidate() const noexcept { return {id, datagrams > 1, last_heard}; }
     // Notes that the far side's port is closed. ICMP does not report every datagram sent to a closed port, so frames
     // sent in the next second also count as refused.
     void note_refusal(MonoTime now) noexcept;
-    // Sends nothing for as long as a refusal holds, or until the peer is heard.
-    void pause_sending(MonoTime now) noexcept;
     // Changes the far side's address. Refusals from the old address are forgotten.
     void move_to(const net::Address& where) noexcept;
     // Counts sent frames at once only if the peer was heard since its last refusal. Otherwise `settle` counts them.
@@ -57,7 +57,6 @@ private:
     static constexpr std::chrono::milliseconds confirmed_after{500};
     static constexpr std::int64_t answers_per_byte = 3;  // to a peer that has not confirmed its address, as in QUIC
     bool listens_ = false;                               // the peer was heard, and has not refused anything since
-    MonoTime refuses_until_{};
     std::uint32_t unsettled_frames_ = 0, unsettled_bytes_ = 0;
 };
 
@@ -78,9 +77,11 @@ public:
     // Called when a datagram has confirmed the peer's address: see UdpPeer::note_heard.
     virtual void on_confirmed(UdpPeer&) {}
     // Called when `reporter` has reported that nobody listens at the peer's address.
-    virtual void on_refused(UdpPeer&, const net::Address& /*reporter*/, MonoTime /*now*/) {}
+    virtual void on_refused(UdpPeer&, const net::Address& /*reporter*/) {}
     // Called when the kernel or the network has rejected a datagram.
     virtual void on_send_error(net::IoError error) = 0;
+
+    net::BindErrors bind_errors{net::Transport::udp};
 };
 
 // One socket. Reads one batch per turn. At the end of the turn, sends the frames that its peers have queued, with
@@ -99,6 +100,8 @@ public:
         waiting_.push_back(&peer);
         core_.outlets.schedule(*this);
     }
+    // Parses a datagram of the peer that has passed stages.
+    void hear(UdpPeer& peer, ByteView bytes, WallTime time);
     // Call it before a peer is destroyed.
     void forget(UdpPeer& peer) noexcept;
     void refresh_kernel_drops() noexcept;
@@ -120,6 +123,7 @@ private:
 
     void receive();
     void receive(const net::ReceiveBatch& batch);
+    void parse(UdpPeer& peer, ByteView bytes, WallTime time);
     bool submit();
     void recover(std::size_t& index, net::IoError error, int& refusals);
     void account(const Part& part) noexcept;
@@ -142,17 +146,10 @@ private:
     std::vector<UdpPeer*> unsettled_;
     std::uint64_t unsettled_turn_ = 0;  // Core::turns() when frames were sent to the peers in `unsettled_`
     std::uint32_t last_drops_ = 0;
-    bool tried_ = false;  // to open the socket: who holds the port is looked up once
     ReadBudget budget_{1, net::ReceiveBatch::slots};
 };
 
 // The socket options that an endpoint's options require.
 [[nodiscard]] net::UdpOptions udp_options(const endpoint::EndpointOptions& endpoint);
-
-// Each creates the endpoint or returns an error.
-[[nodiscard]] SetupResult<std::unique_ptr<OpenEndpoint>> open_udpin(Opening opening);
-[[nodiscard]] SetupResult<std::unique_ptr<OpenEndpoint>> open_udpout(Opening opening);
-[[nodiscard]] SetupResult<std::unique_ptr<OpenEndpoint>> open_udpbcast(Opening opening);
-[[nodiscard]] SetupResult<std::unique_ptr<OpenEndpoint>> open_udpmcast(Opening opening);
 
 }  // namespace mavloom::link::detail

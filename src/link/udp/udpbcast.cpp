@@ -7,7 +7,6 @@
 #include "link/resolve_and_open.hpp"
 #include "link/retry.hpp"
 #include "link/udp/peers.hpp"
-#include "mavloom/net/interfaces.hpp"
 
 namespace mavloom::link::detail {
 
@@ -27,7 +26,7 @@ public:
           retry_(opening.core, *this, *this) {
         everybody_.name = opening.endpoint.label();
         everybody_.signature = signature.get();
-        core_.add_link(everybody_);
+        core_.add_link(everybody_, opening.endpoint.options.trusted.value_or(false) ? Rank::own : Rank::stranger);
     }
     ~UdpBroadcast() override {
         core_.remove_link(everybody_, "closed");
@@ -40,10 +39,12 @@ public:
         if (everybody_.up) return core_.send(everybody_, frame) ? 1 : 0;
         return peers_.send(frame);
     }
-    [[nodiscard]] std::size_t queued_bytes() const override { return everybody_.queue.bytes() + peers_.queued_bytes(); }
+    [[nodiscard]] std::size_t queued_bytes() const override {
+        return everybody_.queued_bytes() + peers_.queued_bytes();
+    }
     bool close_link(LinkId link) override { return peers_.close(link); }
     void settle_sent() override { port_.settle(); }
-    void refresh_kernel_drops() override { port_.refresh_kernel_drops(); }
+    void refresh_counters() override { port_.refresh_kernel_drops(); }
     void on_resolved(net::Resolver::Answer&& answer) override;
 
     UdpPeer* peer_of(UdpPort& port, const net::Datagram& datagram) override;
@@ -60,7 +61,6 @@ private:
 
     Core& core_;
     std::optional<net::Address> local_;
-    net::OwnAddresses own_;
     UdpPort port_;
     UdpPeer everybody_;
     UdpPeers peers_;
@@ -97,7 +97,8 @@ void UdpBroadcast::on_resolved(net::Resolver::Answer&& answer) {
 
 // A socket bound to the broadcast port hears its own datagrams.
 UdpPeer* UdpBroadcast::peer_of(UdpPort& port, const net::Datagram& datagram) {
-    if (datagram.from->port() == info.local_port && own_.contains(*datagram.from, core_.now())) return nullptr;
+    if (datagram.from->port() == info.local_port && core_.own_addresses.contains(*datagram.from, core_.now()))
+        return nullptr;
     return info.endpoint.options.fixed ? &everybody_ : peers_.of(port, datagram);
 }
 
@@ -110,8 +111,6 @@ void UdpBroadcast::on_send_error(net::IoError error) {
 
 }  // namespace
 
-SetupResult<std::unique_ptr<OpenEndpoint>> open_udpbcast(Opening opening) {
-    return open_destination<UdpBroadcast>(std::move(opening));
-}
+Opened open_udpbcast(Opening opening) { return open_destination<UdpBroadcast>(std::move(opening)); }
 
 }  // namespace mavloom::link::detail

@@ -27,7 +27,7 @@ public:
     void settle_sent() override {
         for (const auto& port : ports_) port->settle();
     }
-    void refresh_kernel_drops() override {
+    void refresh_counters() override {
         for (const auto& port : ports_) port->refresh_kernel_drops();
     }
     void on_resolved(net::Resolver::Answer&& answer) override;
@@ -86,8 +86,6 @@ net::UdpOptions udp_options(const endpoint::EndpointOptions& endpoint) {
     return options;
 }
 
-SetupResult<std::unique_ptr<OpenEndpoint>> open_udpin(Opening opening) {
-    return open_listening<UdpIn>(std::move(opening));
-}
+Opened open_udpin(Opening opening) { return open_listening<UdpIn>(std::move(opening)); }
 
 }  // namespace mavloom::link::detail

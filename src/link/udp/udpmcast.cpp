@@ -30,7 +30,7 @@ public:
           retry_(opening.core, *this, *this) {
         group_.name = opening.endpoint.label();
         group_.signature = signature.get();
-        core_.add_link(group_);
+        core_.add_link(group_, opening.endpoint.options.trusted.value_or(false) ? Rank::own : Rank::stranger);
     }
     ~UdpMulticast() override {
         core_.remove_link(group_, "closed");
@@ -41,14 +41,14 @@ public:
     void fail(const SetupError& error) { retry_.fail(error); }
 
     std::size_t send(const wire::FrameView& frame) override { return group_.up && core_.send(group_, frame) ? 1 : 0; }
-    [[nodiscard]] std::size_t queued_bytes() const override { return group_.queue.bytes(); }
+    [[nodiscard]] std::size_t queued_bytes() const override { return group_.queued_bytes(); }
     void settle_sent() override { sending_.settle(); }
-    void refresh_kernel_drops() override {
+    void refresh_counters() override {
         hearing_.refresh_kernel_drops();
         sending_.refresh_kernel_drops();
     }
     UdpPeer* peer_of(UdpPort&, const net::Datagram& datagram) override {
-        const bool own = datagram.from->port() == own_port_ && own_.contains(*datagram.from, core_.now());
+        const bool own = datagram.from->port() == own_port_ && core_.own_addresses.contains(*datagram.from, core_.now());
         return own ? nullptr : &group_;
     }
     void on_send_error(net::IoError error) override;
@@ -58,7 +58,6 @@ private:
     Core& core_;
     std::string interface_;
     Nanoseconds idle_;
-    net::OwnAddresses own_;
     std::uint16_t own_port_ = 0;
     UdpPort hearing_, sending_;
     UdpPeer group_;
@@ -110,7 +109,7 @@ void UdpMulticast::on_timer(MonoTime now) {
 
 }  // namespace
 
-SetupResult<std::unique_ptr<OpenEndpoint>> open_udpmcast(Opening opening) {
+Opened open_udpmcast(Opening opening) {
     const endpoint::Endpoint& endpoint = opening.endpoint;
     const std::string& host = endpoint.address.host;
     const auto percent = host.find('%');

@@ -36,11 +36,11 @@ public:
     }
 
     std::size_t send(const wire::FrameView& frame) override { return peer_ && core_.send(*peer_, frame) ? 1 : 0; }
-    [[nodiscard]] std::size_t queued_bytes() const override { return peer_ ? peer_->queue.bytes() : 0; }
+    [[nodiscard]] std::size_t queued_bytes() const override { return peer_ ? peer_->queued_bytes() : 0; }
     void settle_sent() override {
         if (port_) port_->settle();
     }
-    void refresh_kernel_drops() override {
+    void refresh_counters() override {
         if (port_) port_->refresh_kernel_drops();
     }
     void on_resolved(net::Resolver::Answer&& answer) override;
@@ -132,9 +132,9 @@ void UdpOut::on_send_error(net::IoError error) {
         retry_.report(
             peer_->address.text() + (refused ? " refuses (no program listens there yet)" : " cannot be reached"),
             "sending continues");
-    if (peer_->last_heard != MonoTime{} && core_.now() - peer_->last_heard < Retry::longest) retry_.reset();
+    if (peer_->last_heard != MonoTime{} && core_.now() - peer_->last_heard < Retry::max_delay) retry_.reset();
     const bool choice = is_name_ || addresses_.size() > 1;
-    if (choice && !retry_.within(Retry::longest)) retry_.later();
+    if (choice && !retry_.within(Retry::max_delay)) retry_.later();
 }
 
 // After a failure: tries the next address, and after the last one a new look-up. Without a failure: a new look-up if
@@ -142,7 +142,7 @@ void UdpOut::on_send_error(net::IoError error) {
 void UdpOut::on_timer(MonoTime now) {
     retry_.fired(now);
     const bool heard = peer_ && peer_->last_heard != MonoTime{} && now - peer_->last_heard < idle_;
-    if (heard && now - peer_->last_heard < Retry::first) {
+    if (heard && now - peer_->last_heard < Retry::initial_delay) {
         retry_.settle();
         retry_.reset();
     } else if (retry_.is_failing() && current_ + 1 < addresses_.size()) {
@@ -159,8 +159,6 @@ void UdpOut::on_timer(MonoTime now) {
 
 }  // namespace
 
-SetupResult<std::unique_ptr<OpenEndpoint>> open_udpout(Opening opening) {
-    return open_destination<UdpOut>(std::move(opening));
-}
+Opened open_udpout(Opening opening) { return open_destination<UdpOut>(std::move(opening)); }
 
 }  // namespace mavloom::link::detail

@@ -23,8 +23,8 @@ using link::NamedCount;
 using OfLink = link::Snapshot::OfLink;
 
 // At most so many of each kind are listed. docs/guide/route.md states these numbers.
-constexpr std::size_t most_links = 1024, most_systems = 256, most_components = 256;
-constexpr std::size_t most_messages = 256, most_messages_with_detail = 1024;
+constexpr std::size_t max_links = 1024, max_systems = 256, max_components = 256;
+constexpr std::size_t max_messages = 256, max_messages_with_detail = 1024;
 
 constexpr std::int32_t other = -1;  // an id: the sum over those that are not listed
 constexpr std::string_view other_text = "other";
@@ -109,7 +109,7 @@ private:
         links.reserve(s_.links.size());
         for (const auto& link : s_.links) links.emplace_back(frames_of(link), &link);
         std::ranges::stable_sort(links, std::greater{}, &decltype(links)::value_type::first);
-        links.resize(std::min(links.size(), most_links));
+        links.resize(std::min(links.size(), max_links));
         for (const auto& [frames, link] : links) listed_.insert(link);
     }
 
@@ -138,7 +138,7 @@ private:
     // Links beyond the router's table lack the last counters.
     static void add_up(std::vector<NamedCount>& sums, const std::vector<NamedCount>& counts) {
         for (std::size_t i = 0; i < counts.size(); ++i) {
-            if (i == sums.size()) sums.push_back({counts[i].name, 0});
+            if (i == sums.size()) sums.push_back({counts[i].name, 0, counts[i].help});
             sums[i].value += counts[i].value;
         }
     }
@@ -152,16 +152,19 @@ private:
         for (auto& row : rows)
             if (row.link == nullptr) make_other(row);
         if (has_components_)
-            for (const auto& row : busiest(rows, most_components)) add_source("source", row, component_labels(row));
+            for (const auto& row : busiest(rows, max_components)) add_source("source", row, component_labels(row));
         for (auto& row : rows)
             if (row.component != other) row.component = 0;
-        for (const auto& row : busiest(std::move(rows), most_systems)) add_source("system", row, system_labels(row));
+        for (const auto& row : busiest(std::move(rows), max_systems)) add_source("system", row, system_labels(row));
     }
 
     void add_source(std::string_view kind, const Series& row, const std::string& labels) {
-        metrics_.add(
-            kind, std::vector<NamedCount>{{"frames", row.counts[0]}, {"lost", row.counts[1]}, {"late", row.counts[2]}},
-            labels);
+        metrics_.add(kind,
+                     std::vector<NamedCount>{
+                         {"frames", row.counts[0], "frames from this sender"},
+                         {"lost", row.counts[1], "frames that the link lost, by gaps in the sequence numbers"},
+                         {"late", row.counts[2], "frames that arrived late, by the sequence numbers"}},
+                     labels);
     }
 
     void add_messages() {
@@ -176,8 +179,10 @@ private:
                             {row.count, row.bytes, 0}});
             if (rows.back().link == nullptr) make_other(rows.back());
         }
-        for (const auto& row : busiest(std::move(rows), has_components_ ? most_messages_with_detail : most_messages))
-            metrics_.add("message", std::vector<NamedCount>{{"frames", row.counts[0]}, {"bytes", row.counts[1]}},
+        for (const auto& row : busiest(std::move(rows), has_components_ ? max_messages_with_detail : max_messages))
+            metrics_.add("message",
+                         std::vector<NamedCount>{{"frames", row.counts[0], "frames of this kind"},
+                                                 {"bytes", row.counts[1], "bytes of the frames"}},
                          fmt::format("{},{}", has_components_ ? component_labels(row) : system_labels(row),
                                      MetricsText::label("message", message_name(row.message))));
     }

@@ -14,7 +14,6 @@ namespace {
 
 using control::append_line;
 using control::Json;
-using control::seconds;
 using Shared = std::shared_ptr<Snapshot>;
 
 AppendRow router_line(const Snapshot& s) {
@@ -32,8 +31,8 @@ AppendRow link_lines(const Snapshot& s) {
 }
 
 // The name of the mode in the newest HEARTBEAT; null if it has none.
-Json mode_of(const observe::TrafficRow& row) {
-    const auto mode = message::heartbeat_mode(row.heartbeat);
+Json mode_of(const NewestHeartbeats::Beginning* heartbeat) {
+    const auto mode = heartbeat == nullptr ? std::string_view() : message::heartbeat_mode(*heartbeat);
     return mode.empty() ? Json() : Json(mode);
 }
 
@@ -51,7 +50,8 @@ AppendRow message_lines(const Snapshot& s) {
                   {"frames", row.count},
                   {"bytes", row.bytes},
                   {"rate_hz", row.recent_rate_hz(s.time)}};
-        if (message != nullptr && message::has_mode(*message)) line["mode"] = mode_of(row);
+        if (message != nullptr && message::has_mode(*message))
+            line["mode"] = mode_of(s.heartbeats.find(row.link, row.source));
         append_line(text, std::move(line));
     });
 }

@@ -42,9 +42,7 @@ constexpr std::array commands{
 SetupResult<endpoint::Endpoint> parse_router_endpoint(std::string_view text) {
     auto endpoint = endpoint::parse_endpoint(text);
     if (!endpoint) return endpoint;
-    const bool has_port = endpoint->scheme != endpoint::Scheme::tlog && endpoint->scheme != endpoint::Scheme::serial &&
-                          endpoint->scheme != endpoint::Scheme::shm;  // Router::add rejects shm://
-    if (has_port && endpoint->address.port == 0)
+    if (endpoint->has_address() && endpoint->address.port == 0)
         return setup_error(
             SetupCode::usage,
             fmt::format("{}: other programs must know a router's port; choose one from 1 to 65535", endpoint->label()));

@@ -5,6 +5,8 @@
 #include <span>
 #include <utility>
 
+#include "mavloom/msg/heartbeat.hpp"
+
 namespace mavloom::router {
 
 namespace {
@@ -13,46 +15,21 @@ using link::NamedCount;
 
 constexpr std::size_t systems = 256;
 
-// The router's counters of a link: the verdicts of its frames.
-void append(std::vector<NamedCount>& all, const route::LinkCounters& r) {
-    all.insert(all.end(), {{"forwarded", r.forwarded.value()},
-                           {"nowhere", r.nowhere.value()},
-                           {"filtered", r.filtered.value()},
-                           {"rate_limited", r.rate_limited.value()},
-                           {"duplicate", r.duplicate.value()},
-                           {"echo", r.echo.value()},
-                           {"unknown_target", r.unknown_target.value()},
-                           {"consumed", r.consumed.value()},
-                           {"tap", r.tap.value()},
-                           {"private_link", r.private_link.value()},
-                           {"out_filtered", r.out_filtered.value()},
-                           {"out_rate_limited", r.out_rate_limited.value()},
-                           {"out_bytes_limited", r.out_bytes_limited.value()}});
-}
-
-std::vector<NamedCount> counts_of(const record::RecorderCounters& c) {
-    return {{"frames", c.frames.value()},
-            {"bytes", c.bytes.value()},
-            {"queue_full", c.queue_full.value()},
-            {"write_error", c.write_error.value()}};
-}
+void append(auto& all, const auto& more) { all.insert(all.end(), more.begin(), more.end()); }
 
 std::vector<NamedCount> counts_of(Router& router) {
-    const auto& c = router.engine().counters();
-    return {{"heartbeats_sent", router.heartbeats_sent()},
-            {"not_signed", router.not_signed()},
-            {"unknown_link", c.unknown_link.value()},
-            {"unlisted", router.traffic().unlisted()},
-            {"routes_learned", c.routes_learned.value()},
-            {"routes_expired", c.routes_expired.value()},
-            {"routes_evicted", c.routes_evicted.value()},
-            {"recent_evicted", c.recent_evicted.value()},
-            {"reboots", c.reboots.value()},
-            {"duplicate_ids", c.duplicate_ids.value()},
-            {"route_conflicts", c.route_conflicts.value()}};
+    std::vector<NamedCount> all{{"heartbeats_sent", router.heartbeats_sent(), "own heartbeats"},
+                                {"not_signed", router.not_signed(),
+                                 "frames that sign= sent unchanged, because they were not verified on arrival"},
+                                {"unlisted", router.traffic().unlisted(), "frames that no series of messages counts"}};
+    append(all, link::counts_in(router.engine().counters(), route::engine_counters));
+    return all;
 }
 
-void append(auto& all, const auto& more) { all.insert(all.end(), more.begin(), more.end()); }
+// Null for rows of other messages.
+const NewestHeartbeats::Beginning* beginning_of(const observe::TrafficRow& row, const NewestHeartbeats& newest) {
+    return row.id == msg::Heartbeat::id ? newest.find(row.link, row.source) : nullptr;
+}
 
 }  // namespace
 
@@ -105,10 +82,11 @@ void Snapshots::begin(Copy& copy, Router& router) {
     copy.links = router.links().link_ids();
     if (copy.contents == Contents::all) {
         to.time = wall_now();
-        router.links().refresh_kernel_drops();
+        router.links().refresh_counters();
         to.messages.reserve(router.traffic().size());
         for (const auto* recorder : router.recorders())
-            to.recordings.push_back({recorder->label(), counts_of(recorder->counters())});
+            to.recordings.push_back(
+                {recorder->label(), link::counts_in(recorder->counters(), record::recorder_counters)});
     }
     link::add_endpoints(to, router.links());
 }
@@ -121,7 +99,8 @@ void Snapshots::copy_links(Copy& copy, Router& router) {
         link::add_links(to, router.links(), std::span(&id, 1));
         if (to.links.size() == known) continue;  // the link has gone
         auto& link = to.links.back();
-        if (const auto* routed = router.verdicts(id)) append(link.counts, *routed);
+        if (const auto* routed = router.verdicts(id))
+            append(link.counts, link::counts_in(*routed, route::link_verdicts));
         copy.copied += rows_per_link + link.sources.size();
         if (copy.contents != Contents::routes) continue;
         const auto routes = router.engine().routes(id, mono_now());
@@ -134,6 +113,9 @@ void Snapshots::copy_messages(Copy& copy, const Router& router) {
     if (copy.copied >= piece || copy.message == observe::TrafficTable::end) return;
     const std::size_t most = piece - copy.copied, before = copy.to->messages.size();
     copy.message = router.traffic().copy_rows(copy.message, most, copy.to->messages);
+    for (const auto& row : std::span(copy.to->messages).subspan(before))
+        if (const auto* const beginning = beginning_of(row, router.newest_heartbeats()))
+            copy.to->heartbeats.note(row.link, row.source, *beginning);
     copy.copied = copy.message == observe::TrafficTable::end ? copy.copied + copy.to->messages.size() - before : piece;
 }
 

@@ -14,6 +14,7 @@
 
 #include "mavloom/link/snapshot.hpp"
 #include "mavloom/router/router.hpp"
+#include "router/newest_heartbeats.hpp"
 
 namespace mavloom::router {
 
@@ -31,6 +32,7 @@ struct Snapshot : link::Snapshot {
     Nanoseconds uptime{};
     std::vector<link::NamedCount> counts{};
     std::vector<observe::TrafficRow> messages{};
+    NewestHeartbeats heartbeats{};
     std::vector<OfRecording> recordings{};
     std::vector<route::RouteInfo> routes{};
     std::vector<route::UnknownTargetInfo> unknown_targets{};

@@ -173,6 +173,7 @@ bool CalibrationService::confirm(const Client& from, Moment now) {
 
 void CalibrationService::finish_ardupilot(bool successful) {
     stop();
+    if (successful) parts_.flight.require_reboot(unready_accelerometer_calibrated);
     say(successful ? "Calibration successful" : "Calibration FAILED");
     send_position(successful ? msg::ACCELCAL_VEHICLE_POS_SUCCESS : msg::ACCELCAL_VEHICLE_POS_FAILED);
 }

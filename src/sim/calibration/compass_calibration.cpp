@@ -68,12 +68,13 @@ Outcome CompassCalibration::start(const Command& command, Moment now) {
         parts_.on_text(Severity::notice, "Disarm to allow compass calibration");
         return Result::failed;
     }
-    const bool calibrates_another = parts_.flight.is_calibrating() && !was_running_;
+    const bool calibrates_another = parts_.flight.is_calibrating() && !is_calibrating_;
     if (calibrates_another) return Result::temporarily_rejected;
     const auto mask = command.whole(1, largest_mask);
     const float delay = command.param(4);
     if (!mask || std::isnan(delay)) return Result::failed;
     const auto wait = std::chrono::duration<double>(std::clamp(delay, 0.0f, longest_delay));
+    // As ArduPilot, also if the command then fails.
     saves_by_itself_ = command.param(3) != 0;
     reboots_by_itself_ = command.param(5) != 0;
     return begin(*mask, now.flight + std::chrono::duration_cast<Nanoseconds>(wait), now.flight) ? Result::accepted
@@ -96,7 +97,8 @@ bool CompassCalibration::begin(std::uint32_t mask, FlightTime begins, FlightTime
     if (!has_started) return false;
     parts_.put_parameter("COMPASS_LEARN", 0);
     parts_.flight.set_calibrating(true);
-    was_running_ = true;
+    parts_.flight.require_reboot(unready_compass_calibrated);  // also if the calibration is cancelled
+    is_calibrating_ = true;
     next_ = now + compass_report_interval;
     return true;
 }
@@ -152,11 +154,11 @@ void CompassCalibration::pump(Moment now) {
         if (saves_by_itself_ && !compasses_[i].is_saved) save(i);
         send_report(i);
     }
-    if (was_running_ && !is_running(now.flight)) end();
+    if (is_calibrating_ && !is_running(now.flight)) end();
 }
 
 void CompassCalibration::end() {
-    was_running_ = false;
+    is_calibrating_ = false;
     parts_.flight.set_calibrating(false);
     if (reboots_by_itself_) parts_.reboot(true);
 }
@@ -166,7 +168,7 @@ void CompassCalibration::stop(std::uint32_t mask) {
         if (is_chosen(mask, i)) compasses_[i] = {};
     if (started() != 0) return;
     next_ = FlightTime::max();
-    if (std::exchange(was_running_, false)) parts_.flight.set_calibrating(false);
+    if (std::exchange(is_calibrating_, false)) parts_.flight.set_calibrating(false);
 }
 
 void CompassCalibration::reboot() { stop(all_compasses); }

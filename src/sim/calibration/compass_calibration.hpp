@@ -53,11 +53,11 @@ private:
     void send_progress(std::size_t index, FlightTime now);
     void send_report(std::size_t index);
 
-    static constexpr std::size_t most_compasses = 3;
+    static constexpr std::size_t max_compasses = 3;
     Parts& parts_;
-    std::array<Compass, most_compasses> compasses_{};
+    std::array<Compass, max_compasses> compasses_{};
     bool saves_by_itself_ = false, reboots_by_itself_ = false;
-    bool was_running_ = false;
+    bool is_calibrating_ = false;          // from the start until all compasses are done or stopped
     FlightTime next_ = FlightTime::max();  // when messages are due
 };
 

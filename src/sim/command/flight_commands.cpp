@@ -5,11 +5,12 @@
 #include <cmath>
 #include <optional>
 
+#include "flight/context.hpp"
 #include "mavloom/msg/enums/mav_cmd.hpp"
 #include "mavloom/msg/enums/mav_frame.hpp"
 #include "mavloom/msg/enums/mav_roi.hpp"
 #include "sim/command/commands.hpp"
-#include "sim/command/placement.hpp"
+#include "sim/command/positions.hpp"
 #include "sim/parts.hpp"
 
 namespace mavloom::sim {
@@ -22,8 +23,8 @@ using CarryOut = Outcome (*)(Parts&, const Command&, Moment);
 
 // Answers UNSUPPORTED_MAV_FRAME to a position in a local frame.
 template <CarryOut carry_out>
-Outcome at_place(Parts& parts, const Command& command, Moment now) {
-    return has_global_frame(command) ? carry_out(parts, command, now) : Result::unsupported_frame;
+Outcome at_location(Parts& parts, const Command& command, Moment now) {
+    return is_global_frame(command.frame) ? carry_out(parts, command, now) : Result::unsupported_frame;
 }
 
 double positive_or_nan(float value) noexcept { return std::isfinite(value) && value > 0 ? double{value} : nan; }
@@ -47,9 +48,11 @@ Outcome terminate(Parts& parts, const Command& command, Moment /*now*/) {
 
 // --- Modes
 
-Outcome refuse_unknown_mode(Parts& parts) {
-    parts.on_text(Severity::critical, parts.firmware.texts().unknown_mode);
-    return parts.firmware.is_px4() ? Result::temporarily_rejected : Result::failed;
+Outcome refuse_unknown_mode(Parts& parts, std::uint32_t number) {
+    const bool is_px4 = parts.firmware.is_px4();
+    parts.on_text(is_px4 ? Severity::critical : Severity::warning,
+                  flight::filled(parts.firmware.texts().unknown_mode, std::to_string(number)));
+    return is_px4 ? Result::temporarily_rejected : Result::failed;
 }
 
 // PX4: main mode and sub mode as small numbers. ArduPilot: the custom mode.
@@ -59,7 +62,7 @@ Outcome set_mode(Parts& parts, const Command& command, Moment /*now*/) {
     const auto sub = std::isnan(command.param(3)) ? std::optional(0u) : command.whole(3);
     if (!base_mode || !main || !sub) return Result::denied;
     const ModeInfo* const mode = parts.firmware.requested_mode(static_cast<std::uint8_t>(*base_mode), *main, *sub);
-    return mode == nullptr ? refuse_unknown_mode(parts) : parts.flight.set_mode(*mode, OrderedBy::client);
+    return mode == nullptr ? refuse_unknown_mode(parts, *main) : parts.flight.set_mode(*mode, OrderedBy::client);
 }
 
 Outcome set_standard_mode(Parts& parts, const Command& command, Moment /*now*/) {
@@ -82,7 +85,7 @@ Outcome hold(Parts& parts, const Command& /*command*/, Moment /*now*/) {
 // The altitude of a take-off. Clients of ArduPilot, and MAVProxy with any vehicle, send a height above home in a frame
 // that counts from sea level. So an altitude below home is a height above it, and 0 is none.
 double takeoff_altitude(const Parts& parts, const Command& command) {
-    const double home = home_altitude(parts);
+    const double home = parts.flight.home_altitude();
     if (std::isnan(command.z) || command.z == 0) return nan;
     if (!parts.firmware.is_px4() && !command.is_int) return home + command.z;
     const double altitude = altitude_of(command, parts);
@@ -95,9 +98,9 @@ double yaw_of_takeoff(const Parts& parts, const Command& command) noexcept {
 }
 
 Outcome take_off(Parts& parts, const Command& command, Moment /*now*/) {
-    const Place place = place_of(command, parts);
-    return parts.flight.take_off({.latitude = place.latitude,
-                                  .longitude = place.longitude,
+    const CommandPosition position = position_of(command, parts);
+    return parts.flight.take_off({.latitude = position.latitude,
+                                  .longitude = position.longitude,
                                   .altitude = takeoff_altitude(parts, command),
                                   .yaw = yaw_of_takeoff(parts, command)});
 }
@@ -114,10 +117,10 @@ Outcome return_home(Parts& parts, const Command& /*command*/, Moment /*now*/) { 
 Outcome reposition(Parts& parts, const Command& command, Moment /*now*/) {
     constexpr std::uint32_t change_mode = 1;  // MAV_DO_REPOSITION_FLAGS
     const auto flags = command.whole(2);
-    const Place place = place_of(command, parts);
-    return parts.flight.reposition({.latitude = place.latitude,
-                                    .longitude = place.longitude,
-                                    .altitude = place.altitude,
+    const CommandPosition position = position_of(command, parts);
+    return parts.flight.reposition({.latitude = position.latitude,
+                                    .longitude = position.longitude,
+                                    .altitude = position.altitude,
                                     .speed = positive_or_nan(command.param(1)),
                                     .radius = double{command.param(3)},
                                     .yaw = parts.firmware.is_px4() ? double{command.param(4)} : nan,
@@ -128,11 +131,11 @@ Outcome reposition(Parts& parts, const Command& command, Moment /*now*/) {
 Outcome orbit(Parts& parts, const Command& command, Moment /*now*/) {
     const auto yaw = command.whole(3, static_cast<double>(OrbitYaw::unchanged));
     if (!yaw && !std::isnan(command.param(3))) return Result::denied;
-    const Place place = place_of(command, parts);
+    const CommandPosition position = position_of(command, parts);
     const double angle = std::isfinite(command.param(4)) ? std::max(0.0, double{command.param(4)}) : 0;
-    return parts.flight.orbit({.latitude = place.latitude,
-                               .longitude = place.longitude,
-                               .altitude = place.altitude,
+    return parts.flight.orbit({.latitude = position.latitude,
+                               .longitude = position.longitude,
+                               .altitude = position.altitude,
                                .radius = double{command.param(1)},
                                .speed = positive_or_nan(command.param(2)),
                                .yaw = static_cast<OrbitYaw>(yaw.value_or(0)),
@@ -150,7 +153,7 @@ Outcome change_altitude(Parts& parts, const Command& command, Moment /*now*/) {
     Command with_altitude = command;
     with_altitude.frame = static_cast<std::uint8_t>(*frame);
     with_altitude.z = double{command.param(1)};
-    if (!has_global_frame(with_altitude)) return Result::denied;
+    if (!is_global_frame(with_altitude.frame)) return Result::denied;
     return parts.flight.change_altitude(altitude_of(with_altitude, parts));
 }
 
@@ -227,9 +230,9 @@ Outcome start_landing(Parts& parts, const Command& /*command*/, Moment /*now*/) 
 // --- Home, origin, region of interest, fence
 
 std::optional<GeoPoint> whole_point(const Command& command, const Parts& parts) {
-    const Place place = place_of(command, parts);
-    if (std::isnan(place.latitude) || std::isnan(place.longitude) || std::isnan(command.z)) return std::nullopt;
-    return GeoPoint{place.latitude, place.longitude, altitude_of(command, parts)};
+    const CommandPosition position = position_of(command, parts);
+    if (std::isnan(position.latitude) || std::isnan(position.longitude) || std::isnan(command.z)) return std::nullopt;
+    return GeoPoint{position.latitude, position.longitude, altitude_of(command, parts)};
 }
 
 Outcome set_home(Parts& parts, const Command& command, Moment /*now*/) {
@@ -243,22 +246,22 @@ Outcome set_origin(Parts& parts, const Command& command, Moment /*now*/) {
     return point ? set_global_origin(parts, *point) : Outcome{Result::denied};
 }
 
-Outcome look_at_place(Parts& parts, const Command& command, Moment /*now*/) {
-    const Place place = place_of(command, parts);
-    if (std::isnan(place.latitude) || std::isnan(place.longitude)) return Result::denied;
-    const double altitude = std::isnan(place.altitude) ? parts.flight.ground_altitude() : place.altitude;
-    return parts.flight.look_at(GeoPoint{place.latitude, place.longitude, altitude});
+Outcome set_roi_location(Parts& parts, const Command& command, Moment /*now*/) {
+    const CommandPosition position = position_of(command, parts);
+    if (std::isnan(position.latitude) || std::isnan(position.longitude)) return Result::denied;
+    const double altitude = std::isnan(position.altitude) ? parts.flight.ground_altitude() : position.altitude;
+    return parts.flight.set_roi(GeoPoint{position.latitude, position.longitude, altitude});
 }
 
-Outcome look_ahead(Parts& parts, const Command& /*command*/, Moment /*now*/) {
-    return parts.flight.look_at(std::nullopt);
+Outcome clear_roi(Parts& parts, const Command& /*command*/, Moment /*now*/) {
+    return parts.flight.set_roi(std::nullopt);
 }
 
 // The older form: ROI mode first. ArduPilot ignores the mode; to it, no position means no region.
-Outcome look_at_region(Parts& parts, const Command& command, Moment now) {
-    const bool has_place = !std::isnan(place_of(command, parts).latitude);
-    const bool wants_place = parts.firmware.is_px4() ? command.param(1) == float{MAV_ROI_LOCATION} : has_place;
-    return wants_place ? at_place<look_at_place>(parts, command, now) : look_ahead(parts, command, now);
+Outcome set_roi(Parts& parts, const Command& command, Moment now) {
+    const bool has_position = !std::isnan(position_of(command, parts).latitude);
+    const bool wants_position = parts.firmware.is_px4() ? command.param(1) == float{MAV_ROI_LOCATION} : has_position;
+    return wants_position ? at_location<set_roi_location>(parts, command, now) : clear_roi(parts, command, now);
 }
 
 // ArduPilot keeps the state of the fence in a parameter.
@@ -279,19 +282,19 @@ constexpr std::array flight_rows{
     CommandRow{MAV_CMD_DO_SET_MODE, set_mode},
     CommandRow{MAV_CMD_DO_SET_STANDARD_MODE, set_standard_mode, KnownBy::px4},
     CommandRow{MAV_CMD_NAV_LOITER_UNLIM, hold},
-    CommandRow{MAV_CMD_NAV_TAKEOFF, at_place<take_off>},
+    CommandRow{MAV_CMD_NAV_TAKEOFF, at_location<take_off>},
     CommandRow{MAV_CMD_NAV_LAND, land},
     CommandRow{MAV_CMD_NAV_LAND_LOCAL, land, KnownBy::px4},  // PX4 lands with a beacon by this id
     CommandRow{MAV_CMD_NAV_RETURN_TO_LAUNCH, return_home},
 
-    CommandRow{MAV_CMD_DO_REPOSITION, at_place<reposition>},
-    CommandRow{MAV_CMD_DO_ORBIT, at_place<orbit>, KnownBy::px4},
+    CommandRow{MAV_CMD_DO_REPOSITION, at_location<reposition>},
+    CommandRow{MAV_CMD_DO_ORBIT, at_location<orbit>, KnownBy::px4},
     CommandRow{MAV_CMD_DO_PAUSE_CONTINUE, pause_or_continue},
     CommandRow{MAV_CMD_DO_CHANGE_ALTITUDE, change_altitude},
     CommandRow{MAV_CMD_DO_CHANGE_SPEED, change_speed},
     CommandRow{MAV_CMD_CONDITION_YAW, turn, KnownBy::ardupilot},
     CommandRow{MAV_CMD_GUIDED_CHANGE_SPEED, change_speed, KnownBy::ardupilot},
-    CommandRow{MAV_CMD_GUIDED_CHANGE_ALTITUDE, at_place<guided_altitude>, KnownBy::ardupilot},
+    CommandRow{MAV_CMD_GUIDED_CHANGE_ALTITUDE, at_location<guided_altitude>, KnownBy::ardupilot},
     CommandRow{MAV_CMD_GUIDED_CHANGE_HEADING, guided_heading, KnownBy::ardupilot},
 
     CommandRow{MAV_CMD_MISSION_START, start_mission},
@@ -299,12 +302,12 @@ constexpr std::array flight_rows{
     CommandRow{MAV_CMD_DO_LAND_START, start_landing},
     CommandRow{MAV_CMD_DO_GO_AROUND, accept},
 
-    CommandRow{MAV_CMD_DO_SET_HOME, at_place<set_home>},
-    CommandRow{MAV_CMD_DO_SET_GLOBAL_ORIGIN, at_place<set_origin>},
-    CommandRow{MAV_CMD_DO_SET_ROI_LOCATION, at_place<look_at_place>},
-    CommandRow{MAV_CMD_DO_SET_ROI_WPNEXT_OFFSET, look_ahead},
-    CommandRow{MAV_CMD_DO_SET_ROI_NONE, look_ahead},
-    CommandRow{MAV_CMD_DO_SET_ROI, look_at_region},
+    CommandRow{MAV_CMD_DO_SET_HOME, at_location<set_home>},
+    CommandRow{MAV_CMD_DO_SET_GLOBAL_ORIGIN, at_location<set_origin>},
+    CommandRow{MAV_CMD_DO_SET_ROI_LOCATION, at_location<set_roi_location>},
+    CommandRow{MAV_CMD_DO_SET_ROI_WPNEXT_OFFSET, clear_roi},
+    CommandRow{MAV_CMD_DO_SET_ROI_NONE, clear_roi},
+    CommandRow{MAV_CMD_DO_SET_ROI, set_roi},
     CommandRow{MAV_CMD_DO_FENCE_ENABLE, enable_fence},
 };
 

@@ -94,8 +94,8 @@ FailureSwitch switch_of(std::uint32_t unit) noexcept {
 // A battery that is "off" is nearly empty.
 Outcome fail_battery(Parts& parts, std::uint32_t type) {
     constexpr double nearly_empty = 0.04;
-    if (type != FAILURE_TYPE_OK && type != FAILURE_TYPE_OFF) return Result::unsupported;
-    return parts.flight.set_battery(type == FAILURE_TYPE_OK ? 1 : nearly_empty);
+    if (type == FAILURE_TYPE_OK) return parts.flight.restore_battery();
+    return type == FAILURE_TYPE_OFF ? parts.flight.set_battery(nearly_empty) : Result::unsupported;
 }
 
 Outcome inject_failure(Parts& parts, const Command& command, Moment /*now*/) {

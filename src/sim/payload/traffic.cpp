@@ -81,7 +81,7 @@ Aircraft make_aircraft(Random& random) {
 Traffic::Traffic(Parts& parts) : parts_(parts) {
     constexpr std::uint64_t own_sequence = 0x74726166666963;  // apart from the noise of the vehicle
     Random random(parts.options.seed ^ own_sequence);
-    for (std::size_t i = 0; i < std::min(parts.options.traffic, most_aircraft); ++i)
+    for (std::size_t i = 0; i < std::min(parts.options.traffic, max_aircraft); ++i)
         aircraft_.push_back(make_aircraft(random));
     if (!aircraft_.empty()) next_ = parts.now.flight + period / 2;
 }

@@ -45,7 +45,7 @@ public:
     void pump(Moment now) override;
 
 private:
-    static constexpr std::size_t most_aircraft = 64;
+    static constexpr std::size_t max_aircraft = 64;
     static constexpr Nanoseconds period = std::chrono::seconds{1};
 
     void transmit(const Aircraft& aircraft, std::uint64_t round, FlightTime now);

@@ -47,8 +47,8 @@ public:
     }
     void transmit(LinkId link, const wire::MessageInfo& info, ByteView payload, ComponentId from = autopilot_component);
 
-    // True while the link's queue is short enough for another frame of a bulk transfer.
-    [[nodiscard]] bool has_room(LinkId link) const { return sink_.queued_bytes(link) < bulk_bytes; }
+    // True while the link has room for another frame of a bulk transfer.
+    [[nodiscard]] bool has_room(LinkId link) const { return sink_.has_room(link); }
     // Traffic of a link so far.
     struct Totals {
         std::uint64_t frames = 0, bytes = 0;                    // sent
@@ -66,9 +66,6 @@ public:
     void set_silent(bool silent) noexcept { silent_ = silent; }
 
 private:
-    // Bulk transfers pause while a link's queue holds this much.
-    static constexpr std::size_t bulk_bytes = 4096;
-
     struct Outlet {
         std::array<std::uint8_t, 256> sequences{};  // by component
         std::uint8_t signing_link = 0;              // the link id in signatures

@@ -38,8 +38,10 @@ constexpr Message pos_message{
     137, 8 + 4 + 4 + 3 * 4, "POS", "QLLfff", "TimeUS,Lat,Lng,Alt,RelHomeAlt,RelOriginAlt", "sDUmmm", "FGG000"};
 constexpr Message bat_message{138,      8 + 1 + 3 * 4 + 1, "BAT", "QBfffB", "TimeUS,Inst,Volt,Curr,CurrTot,RemPct",
                               "s#vAa%", "F-00C0"};
-constexpr std::array messages{fmt_message,  unit_message, fmtu_message, mult_message, parm_message, msg_message,
-                              mode_message, att_message,  gps_message,  pos_message,  bat_message};
+constexpr std::array all_messages{fmt_message,  unit_message, fmtu_message, mult_message, parm_message, msg_message,
+                                  mode_message, att_message,  gps_message,  pos_message,  bat_message};
+
+constexpr std::array attitude_messages{fmt_message, unit_message, fmtu_message, mult_message, msg_message, att_message};
 
 constexpr std::uint32_t length_of(const Message& message) noexcept {
     return message_head + std::uint32_t{message.size};
@@ -78,7 +80,7 @@ void append(Bytes& to, const Message& message, const Fill& fill) {
     fill(out);
 }
 
-void append_definitions(Bytes& to, std::uint64_t time) {
+void append_definitions(Bytes& to, std::span<const Message> messages, std::uint64_t time) {
     for (const Message& message : messages)
         append(to, fmt_message, [&](ByteWriter& out) {
             out.put(message.type);
@@ -121,6 +123,13 @@ void append_parameters(Bytes& to, std::uint64_t time, std::span<const ParamInfo>
         });
 }
 
+void append_text(Bytes& to, std::uint64_t time, std::string_view text) {
+    append(to, msg_message, [&](ByteWriter& out) {
+        out.put(time);
+        out.put_text(text, 64);
+    });
+}
+
 // GPS time: weeks since 1980-01-06, and milliseconds of the week. It is ahead of UTC by the leap seconds since then.
 struct GpsTime {
     std::uint16_t week = 0;
@@ -135,10 +144,10 @@ GpsTime gps_time(WallTime utc) noexcept {
             static_cast<std::uint32_t>(time % week / std::chrono::milliseconds{1})};
 }
 
-void write_attitude(ByteWriter& out, const LogRecord& record, const Sample& sample) noexcept {
-    const Euler angles = to_euler(attitude_of(sample));
+void put_attitude(ByteWriter& out, std::uint64_t time, const Quaternion& attitude) noexcept {
+    const Euler angles = to_euler(attitude);
     begin(out, att_message);
-    out.put(time_us(record));
+    out.put(time);
     for (const double angle : {angles.roll, angles.pitch, wrap_2pi(angles.yaw)}) out.put(as_float(to_degrees(angle)));
 }
 
@@ -200,13 +209,21 @@ public:
     Bytes header(const LogSource& source, const LogHead& head) const override {
         const std::uint64_t time = std::uint64_t{head.began_ms} * 1000;
         Bytes bytes;
-        append_definitions(bytes, time);
+        append_definitions(bytes, all_messages, time);
         append_parameters(bytes, time, source.firmware.parameters(), head.changed);
-        append(bytes, msg_message, [&](ByteWriter& out) {
-            out.put(time);
-            out.put_text(source.firmware.texts().banner, 64);
-        });
+        append_text(bytes, time, source.firmware.texts().banner);
         return bytes;
+    }
+    Bytes attitude_header() const override {
+        Bytes bytes;
+        append_definitions(bytes, attitude_messages, 0);
+        append_text(bytes, 0, "Simulated by Mavloom");
+        return bytes;
+    }
+    std::uint32_t attitude_size() const noexcept override { return length_of(att_message); }
+    void write_attitude(std::uint64_t time, const Quaternion& attitude, ByteSpan out) const noexcept override {
+        ByteWriter writer(out);
+        put_attitude(writer, time, attitude);
     }
     std::uint32_t size(const LogRecord& record) const noexcept override {
         if (std::holds_alternative<Sample>(record.content)) return sample_size;
@@ -216,7 +233,7 @@ public:
                ByteSpan out) const noexcept override {
         ByteWriter writer(out);
         if (const auto* const sample = std::get_if<Sample>(&record.content)) {
-            write_attitude(writer, record, *sample);
+            put_attitude(writer, time_us(record), attitude_of(*sample));
             write_gps(writer, head, record, *sample);
             write_position(writer, head, record, *sample);
             write_battery(writer, record, *sample);

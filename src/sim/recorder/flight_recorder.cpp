@@ -113,7 +113,7 @@ LogHead FlightRecorder::head(FlightTime now) const {
                  .began_ms = milliseconds(now),
                  .began = utc_at(now),
                  .origin = {origin.latitude, origin.longitude, origin.altitude},
-                 .home_altitude = to_mm(flight_.home() ? flight_.home()->altitude : flight_.ground_altitude())};
+                 .home_altitude = to_mm(flight_.home_altitude())};
     const Parameters initial(firmware_.parameters());
     for (ParamIndex i = 0; i < parameters_.size(); ++i)
         if (parameters_.bits(i) != initial.bits(i)) head.changed.push_back({i, parameters_.bits(i)});

@@ -42,6 +42,18 @@ private:
     std::size_t at_ = 0;
 };
 
+// Appends with zeros up to `width`.
+inline void append(std::vector<std::uint8_t>& to, std::string_view text, std::size_t width = 0) {
+    to.insert(to.end(), text.begin(), text.end());
+    to.resize(to.size() + (width > text.size() ? width - text.size() : 0));
+}
+template <class T>
+void append_number(std::vector<std::uint8_t>& to, T value) {
+    const std::size_t at = to.size();
+    to.resize(at + sizeof value);
+    store_le(to.data() + at, value);
+}
+
 class LogFormat {
 public:
     [[nodiscard]] static const LogFormat& of(bool is_px4) noexcept;
@@ -54,6 +66,11 @@ public:
     // Writes the bytes of a record to `out`, which has `largest_record` bytes.
     virtual void write(const LogSource& source, const LogHead& head, const LogRecord& record,
                        ByteSpan out) const noexcept = 0;
+
+    // For a log of nothing but attitudes: everything before the first one, the size of one, and its bytes.
+    [[nodiscard]] virtual std::vector<std::uint8_t> attitude_header() const = 0;
+    [[nodiscard]] virtual std::uint32_t attitude_size() const noexcept = 0;
+    virtual void write_attitude(std::uint64_t time_us, const Quaternion& attitude, ByteSpan out) const noexcept = 0;
 };
 
 [[nodiscard]] const LogFormat& ulog_format() noexcept;

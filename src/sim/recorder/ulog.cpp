@@ -70,15 +70,6 @@ constexpr std::uint32_t sample_size = [] {
 }();
 static_assert(sample_size <= LogFormat::largest_record);
 
-void append(Bytes& to, std::string_view text) { to.insert(to.end(), text.begin(), text.end()); }
-
-template <class T>
-void append_number(Bytes& to, T value) {
-    const std::size_t at = to.size();
-    to.resize(at + sizeof value);
-    store_le(to.data() + at, value);
-}
-
 void append_message(Bytes& to, char type, std::size_t size) {
     append_number(to, static_cast<std::uint16_t>(size));
     append(to, {&type, 1});
@@ -94,6 +85,28 @@ void append_key(Bytes& to, char type, std::string_view key, std::size_t value_si
 void append_text(Bytes& to, std::string_view name, std::string_view text) {
     append_key(to, 'I', fmt::format("char[{}] {}", text.size(), name), text.size());
     append(to, text);
+}
+
+constexpr std::size_t flag_bytes = 40;  // none is set
+
+void append_beginning(Bytes& to, std::uint64_t time) {
+    append(to, "ULog\x01\x12\x35\x01");
+    append_number(to, time);
+    append_message(to, 'B', flag_bytes);
+    to.resize(to.size() + flag_bytes);
+}
+
+void append_format(Bytes& to, const Topic& topic) {
+    append_message(to, 'F', topic.name.size() + 1 + topic.fields.size());
+    append(to, fmt::format("{}:{}", topic.name, topic.fields));
+}
+
+// The log has the first instance of the topic.
+void append_subscription(Bytes& to, std::uint16_t topic) {
+    append_message(to, 'A', 1 + 2 + topics[topic].name.size());
+    append_number(to, std::uint8_t{0});
+    append_number(to, topic);
+    append(to, topics[topic].name);
 }
 
 void append_parameters(Bytes& to, std::span<const ParamInfo> infos, std::span<const ChangedParameter> changed) {
@@ -124,6 +137,19 @@ std::uint64_t microseconds(WallTime time) noexcept {
     return static_cast<std::uint64_t>(std::max<std::int64_t>(0, time.time_since_epoch() / std::chrono::microseconds{1}));
 }
 
+void begin(ByteWriter& out, TopicIndex topic, std::uint64_t time) noexcept {
+    out.put(static_cast<std::uint16_t>(topics[topic].size + 2));
+    out.put(static_cast<std::uint8_t>('D'));
+    out.put(static_cast<std::uint16_t>(topic));
+    out.put(time);
+}
+
+void put_attitude(ByteWriter& out, std::uint64_t time, const Quaternion& q) noexcept {
+    begin(out, attitude, time);
+    out.put(time);
+    for (const double part : {q.w(), q.x(), q.y(), q.z()}) out.put(as_float(part));
+}
+
 // Writes the topics of one sample.
 class Topics {
 public:
@@ -140,17 +166,9 @@ public:
     }
 
 private:
-    void begin(TopicIndex topic) noexcept {
-        out_.put(static_cast<std::uint16_t>(topics[topic].size + 2));
-        out_.put(static_cast<std::uint8_t>('D'));
-        out_.put(static_cast<std::uint16_t>(topic));
-        out_.put(time_us(record_));
-    }
+    void begin(TopicIndex topic) noexcept { ulog::begin(out_, topic, time_us(record_)); }
     void write_attitude() noexcept {
-        const Quaternion q = attitude_of(sample_);
-        begin(attitude);
-        out_.put(time_us(record_));
-        for (const double part : {q.w(), q.x(), q.y(), q.z()}) out_.put(as_float(part));
+        put_attitude(out_, time_us(record_), attitude_of(sample_));
         begin(angular_velocity);
         out_.put(time_us(record_));
         for (const std::int16_t rate : sample_.rates) out_.put(as_float(rate / 1e3));
@@ -224,26 +242,28 @@ class ULog final : public LogFormat {
 public:
     Bytes header(const LogSource& source, const LogHead& head) const override {
         Bytes bytes;
-        append(bytes, "ULog\x01\x12\x35\x01");
-        append_number(bytes, std::uint64_t{head.began_ms} * 1000);
-        append_message(bytes, 'B', flag_bytes);
-        bytes.resize(bytes.size() + flag_bytes);
-        for (const Topic& topic : topics) {
-            append_message(bytes, 'F', topic.name.size() + 1 + topic.fields.size());
-            append(bytes, fmt::format("{}:{}", topic.name, topic.fields));
-        }
+        append_beginning(bytes, std::uint64_t{head.began_ms} * 1000);
+        for (const Topic& topic : topics) append_format(bytes, topic);
         append_text(bytes, "sys_name", "PX4");
         append_text(bytes, "ver_hw", "PX4_SITL");
         append_key(bytes, 'I', "uint32_t ver_sw_release", sizeof(std::uint32_t));
         append_number(bytes, source.firmware.version().flight);
         append_parameters(bytes, source.firmware.parameters(), head.changed);
-        for (std::uint16_t i = 0; i < topic_count; ++i) {
-            append_message(bytes, 'A', 1 + 2 + topics[i].name.size());
-            append_number(bytes, std::uint8_t{0});  // first instance of the topic
-            append_number(bytes, i);
-            append(bytes, topics[i].name);
-        }
+        for (std::uint16_t i = 0; i < topic_count; ++i) append_subscription(bytes, i);
         return bytes;
+    }
+    Bytes attitude_header() const override {
+        Bytes bytes;
+        append_beginning(bytes, 0);
+        append_format(bytes, topics[attitude]);
+        append_text(bytes, "sys_name", "PX4");
+        append_subscription(bytes, attitude);
+        return bytes;
+    }
+    std::uint32_t attitude_size() const noexcept override { return data_head + topics[attitude].size; }
+    void write_attitude(std::uint64_t time, const Quaternion& q, ByteSpan out) const noexcept override {
+        ByteWriter writer(out);
+        put_attitude(writer, time, q);
     }
     // The mode is in every sample, so a change of mode takes no bytes.
     std::uint32_t size(const LogRecord& record) const noexcept override {
@@ -264,9 +284,6 @@ public:
         writer.put(time_us(record));
         writer.put_text(text->text(), text->length);
     }
-
-private:
-    static constexpr std::size_t flag_bytes = 40;  // none is set
 };
 
 }  // namespace

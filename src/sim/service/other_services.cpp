@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "sim/service/other_services.hpp"
 
+#include "sim/control/controls.hpp"
 #include "sim/parts.hpp"
 #include "sim/payload/traffic.hpp"
 #include "sim/service/connection.hpp"
-#include "sim/service/controls.hpp"
 #include "sim/service/shell.hpp"
 #include "sim/telemetry/data_streams.hpp"
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstring>
 
+#include "mavloom/base/text.hpp"
 #include "mavloom/msg/enums/serial_control_dev.hpp"
 #include "mavloom/msg/enums/serial_control_flag.hpp"
 #include "mavloom/msg/serial_control.hpp"
@@ -19,13 +20,6 @@ namespace {
 
 constexpr std::array shell_messages{msg::SerialControl::id};
 constexpr std::string_view prompt = "nsh> ";
-
-std::string_view trimmed(std::string_view text) noexcept {
-    constexpr std::string_view blanks = " \t\r";
-    const auto first = text.find_first_not_of(blanks);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 }  // namespace
 

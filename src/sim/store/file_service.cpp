@@ -29,7 +29,7 @@ constexpr Nanoseconds repeat_window = std::chrono::seconds{2};
 constexpr unsigned pieces_at_once = 56, pieces_of_burst = 168;
 // One small request may make every vehicle of a fleet sum up a file. So each does 500 kB a second, and 1 MB at once.
 constexpr Nanoseconds checksum_time_per_byte = std::chrono::microseconds{2};
-constexpr Nanoseconds most_checksum_time = std::chrono::seconds{2};
+constexpr Nanoseconds max_checksum_time = std::chrono::seconds{2};
 
 }  // namespace
 
@@ -253,7 +253,7 @@ bool FileService::checksum(const Request& request, Reply& reply) {
         return true;
     }
     checksums_until_ = std::max(checksums_until_, request.now.real);
-    if (checksums_until_ - request.now.real >= most_checksum_time) return false;
+    if (checksums_until_ - request.now.real >= max_checksum_time) return false;
     checksums_until_ += checksum_time_per_byte * tree_.size(*file).value_or(0);
     reply.put(tree_.checksum(*file));
     return true;

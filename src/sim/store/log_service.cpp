@@ -113,11 +113,16 @@ void LogService::send_nothing(const Client& to, std::uint16_t id, std::uint32_t 
     parts_.radio.send(to.link, LogData{.id_ = id, .ofs = offset});
 }
 
+// When a flight begins, the oldest logs may go, and the list becomes shorter.
+bool LogService::send_next_entry(Download& download) {
+    download.end = std::min<std::uint32_t>(download.end, logs_.count());
+    if (download.next >= download.end) return false;
+    send_entry(download.client, download.next++);
+    return download.next < download.end;
+}
+
 bool LogService::send_next(Download& download) {
-    if (download.is_list) {
-        send_entry(download.client, download.next++);
-        return download.next < download.end;
-    }
+    if (download.is_list) return send_next_entry(download);
     const auto log = logs_.index_of(download.log);
     if (!log) return false;
     LogData message{.id_ = download.id, .ofs = download.next};

@@ -53,7 +53,8 @@ private:
     void stop(const Client& client);
     void send_entry(const Client& to, std::uint32_t index);
     void send_nothing(const Client& to, std::uint16_t id, std::uint32_t offset);
-    // Both return false when the download is complete.
+    // These return false when the download is complete.
+    [[nodiscard]] bool send_next_entry(Download& download);
     [[nodiscard]] bool send_next(Download& download);
     [[nodiscard]] bool advance(Download& download);  // sends as many messages as may be sent at once
 

@@ -21,15 +21,15 @@ using namespace msg;
 constexpr std::uint32_t piece = 249, block = 200;  // data bytes of LOGGING_DATA and of REMOTE_LOG_DATA_BLOCK
 constexpr std::uint8_t no_message_begins = 255;
 constexpr Nanoseconds repeat_after = std::chrono::milliseconds{100};
-constexpr unsigned most_tries = 50;
-constexpr std::size_t most_in_flight = 16;  // blocks without acknowledgement
+constexpr unsigned max_tries = 50;
+constexpr std::size_t max_in_flight = 16;  // blocks without acknowledgement
 constexpr Nanoseconds give_up_after = std::chrono::seconds{10};
 
 }  // namespace
 
 Result LogStreams::start(const Client& to, Moment now) {
     stop(to);
-    if (!make_room(streams_, to.link, most_)) return Result::temporarily_rejected;
+    if (!make_room(streams_, to.link, max_streams_)) return Result::temporarily_rejected;
     streams_.push_back({.client = to, .began = now.flight, .heard = now.real});
     return Result::accepted;
 }
@@ -76,7 +76,7 @@ std::uint32_t LogStreams::piece_length(const Stream& stream) const noexcept {
 bool LogStreams::pump_messages(Stream& stream, Moment now) {
     if (is_in_header(stream)) {
         if (stream.waits && now.real - stream.sent < repeat_after) return true;
-        if (stream.tries++ == most_tries) return false;
+        if (stream.tries++ == max_tries) return false;
         stream.waits = true;
         stream.sent = now.real;
         send_message<LoggingDataAcked>(stream);
@@ -135,7 +135,7 @@ bool LogStreams::pump_blocks(Stream& stream, Moment now) {
         sent.sent = now.real;
         send_block(stream, sent.seq);
     }
-    while (stream.blocks.size() < most_in_flight &&
+    while (stream.blocks.size() < max_in_flight &&
            (stream.next_block + std::uint64_t{1}) * block <= written(stream, now)) {
         if (!radio_.has_room(stream.client.link)) break;
         stream.blocks.push_back({stream.next_block, now.real});

@@ -23,7 +23,7 @@ class LogStreams {
 public:
     // `radio` must outlive the object.
     LogStreams(bool is_px4, SystemId system, std::size_t most, Radio& radio) noexcept
-        : radio_(radio), image_(LogImage::endless(is_px4, system)), most_(most), is_px4_(is_px4) {}
+        : radio_(radio), image_(LogImage::endless(is_px4, system)), max_streams_(most), is_px4_(is_px4) {}
 
     // If the client already streams, its stream starts over. Returns TEMPORARILY_REJECTED if too many clients stream.
     Result start(const Client& to, Moment now);
@@ -67,7 +67,7 @@ private:
 
     Radio& radio_;
     LogImage image_;
-    std::size_t most_;
+    std::size_t max_streams_;
     bool is_px4_;
     std::vector<Stream> streams_;
 };

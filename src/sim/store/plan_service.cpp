@@ -95,7 +95,7 @@ void PlanService::receive(const Client& from, MessageId id, ByteView payload, Mo
     if (id == MissionRequestList::id) return on_list(from, MissionRequestList::decode(payload).mission_type, now);
     if (id == MissionAck::id) return on_ack(from, payload, now);
     if (id == MissionClearAll::id) return on_clear(from, MissionClearAll::decode(payload).mission_type);
-    if (id == MissionSetCurrent::id) return on_set_current(MissionSetCurrent::decode(payload).seq);
+    if (id == MissionSetCurrent::id) return on_set_current(MissionSetCurrent::decode(payload).seq, now);
     if (id == MissionWritePartialList::id) return on_partial_write(from, payload, now);
     // Neither firmware lets clients read a part of the list.
     acknowledge(from, MissionRequestPartialList::decode(payload).mission_type, MAV_MISSION_UNSUPPORTED);
@@ -151,7 +151,8 @@ void PlanService::on_item(const Client& from, const Request& request, Moment now
     const auto type = plan_type(request.mission_type);
     Transfer* const transfer = type ? find(from, *type) : nullptr;
     if (transfer == nullptr || transfer->stage == Stage::download) {
-        if (parts_.firmware.is_px4()) parts_.on_text(Severity::critical, "IGN MISSION_ITEM: No transfer");
+        if (parts_.firmware.is_px4() && texts_.spend(now.flight))
+            parts_.on_text(Severity::critical, "IGN MISSION_ITEM: No transfer");
         return acknowledge(from, request.mission_type, MAV_MISSION_ERROR);
     }
     transfer->heard = now.real;
@@ -319,6 +320,8 @@ void PlanService::on_ack(const Client& from, ByteView payload, Moment now) {
     if (transfer == nullptr || transfer->stage == Stage::finished) return;
     if (transfer->stage == Stage::download || message.type == MAV_MISSION_OPERATION_CANCELLED) return drop(from, *type);
     if (message.type != MAV_MISSION_UNSUPPORTED || !parts_.firmware.is_px4()) return;
+    // A client that refuses both forms is asked no faster than one that does not answer.
+    if (std::exchange(transfer->was_refused, true)) return;
     transfer->asks_int = !transfer->asks_int;
     ask(*transfer, now);
 }
@@ -339,8 +342,8 @@ void PlanService::on_clear(const Client& from, std::uint8_t mission_type) {
 }
 
 // There is no MISSION_ACK, because clients would take it for that of a transfer. A refusal is a text.
-void PlanService::on_set_current(std::uint16_t seq) {
-    if (!parts_.flight.set_current_item(seq, false).is_accepted())
+void PlanService::on_set_current(std::uint16_t seq, Moment now) {
+    if (!parts_.flight.set_current_item(seq, false).is_accepted() && texts_.spend(now.flight))
         parts_.on_text(Severity::warning, fmt::format("The mission has no item {}", seq));
     parts_.on_mission_progress();
 }

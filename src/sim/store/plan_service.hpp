@@ -14,6 +14,7 @@
 #include "flight/plan.hpp"
 #include "mavloom/msg/mission_count.hpp"
 #include "sim/service/service.hpp"
+#include "sim/service/text_limit.hpp"
 
 namespace mavloom::sim {
 
@@ -46,6 +47,7 @@ private:
         Stage stage;
         bool asks_int = true;                    // upload: by MISSION_REQUEST_INT; false: by MISSION_REQUEST
         bool has_form = false;                   // upload: an item has shown which form the client speaks
+        bool was_refused = false;                // upload: the client has refused a form
         bool was_asked = false;                  // download: a request has arrived, so MISSION_COUNT is not repeated
         unsigned repeats = 0;                    // upload: of the request, until an item arrives
         std::uint16_t next = 0, end = 0;         // upload: the item that is awaited, and one past the last one
@@ -73,7 +75,7 @@ private:
     void on_request(const Client& from, std::uint16_t seq, std::uint8_t mission_type, bool is_int, Moment now);
     void on_ack(const Client& from, ByteView payload, Moment now);
     void on_clear(const Client& from, std::uint8_t mission_type);
-    void on_set_current(std::uint16_t seq);
+    void on_set_current(std::uint16_t seq, Moment now);
     // ArduPilot: an item that is an order to fly to a point (current = 2) or to a height (3).
     void on_guided_item(const Client& from, const Request& request);
 
@@ -101,6 +103,7 @@ private:
     Parts& parts_;
     std::vector<Transfer> transfers_;  // at most Limits::clients
     Reached reached_;
+    TextLimit texts_;  // about messages that do not fit
 };
 
 }  // namespace mavloom::sim

@@ -36,7 +36,7 @@ public:
 private:
     void write_record(std::uint32_t index, ByteSpan record) const noexcept;
 
-    bool is_px4_;
+    const LogFormat* format_;
     SystemId system_;
     std::uint16_t number_;
     ByteView header_;

@@ -147,9 +147,9 @@ RC_GTEST_PROP(Tlog, TheRecordsOfOneMessageAreThoseThatAFullExaminationFinds, ())
         if (wire::FrameView::unchecked(sample.frame).id() == id) expected.push_back(std::move(sample));
     auto passing = TlogReader::open(path, golden_table());
     std::vector<Sample> found;
-    const auto most_bytes = *rc::gen::element<std::uint64_t>(1, 100, 3000, ~std::uint64_t{0});
+    const auto max_bytes = *rc::gen::element<std::uint64_t>(1, 100, 3000, ~std::uint64_t{0});
     for (;;) {
-        const auto record = passing->next_of(id, most_bytes);
+        const auto record = passing->next_of(id, max_bytes);
         if (record)
             found.push_back({static_cast<std::uint64_t>(unix_us(record->time)), test::copy(record->frame.bytes())});
         else if (record.error() != TlogReader::Stop::damage) break;

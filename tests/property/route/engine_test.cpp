@@ -43,8 +43,8 @@ ModelPolicy policy_of(const Step& s) {
     policy.endpoint = s[6] / 9 % 4 == 2 ? 1 + s[4] % 2 : 0;
     policy.tap = s[5] / 4 % 8 == 1;
     policy.is_private = s[5] / 4 % 8 == 2;
-    policy.is_verified = s[5] / 32 % 4 == 1;
-    policy.learns_first = s[5] / 32 % 4 == 2;
+    policy.rank = std::array{Rank::stranger, Rank::own, Rank::verified, Rank::stranger}[s[5] / 32 % 4];
+    policy.learns_first = s[5] / 32 % 4 == 3;
     if (s[6] / 9 % 4 == 1) policy.attitude_interval = 500ms;
     if (s[6] / 36 % 4 == 1) policy.other_interval = 1s;
     if (s[4] / 6 % 4 == 1) policy.bytes_per_s = s[4] / 24;
@@ -60,7 +60,7 @@ LinkPolicy compiled(const ModelPolicy& policy) {
                     .endpoint = policy.endpoint,
                     .tap = policy.tap,
                     .is_private = policy.is_private,
-                    .is_verified = policy.is_verified,
+                    .rank = policy.rank,
                     .learns_first = policy.learns_first,
                     .max_bytes_per_s = policy.bytes_per_s};
     std::vector<dialect::RateTerm> rates;
@@ -145,11 +145,10 @@ public:
     }
 
 private:
-    void add_link(ModelPolicy policy) {
+    void add_link(const ModelPolicy& policy) {
         const LinkId id{++last_};
-        policy.address = 1 + last_ % 6;  // a link that went may come back
-        RC_ASSERT(routing_.add_link(id, compiled(policy), policy.address));
-        RC_ASSERT(explaining_.add_link(id, compiled(policy), policy.address));
+        RC_ASSERT(routing_.add_link(id, compiled(policy)));
+        RC_ASSERT(explaining_.add_link(id, compiled(policy)));
         model_.add(last_, policy);
     }
 
@@ -231,7 +230,8 @@ RC_GTEST_PROP(Engine, DecidesAsTheModelDoes, (std::uint8_t bits)) {
 
 RC_GTEST_PROP(Engine, DecidesAsTheModelDoesWithPlainLinks, (std::uint8_t bits)) {
     Life sut(options_of(bits));
-    for (int i = 0; i < 4; ++i) sut.add({0, 0, 0, 0, 0, 3, 0});
+    // Two strangers, two own links, a verified one.
+    for (const auto rank : std::initializer_list<std::uint8_t>{3, 3, 35, 35, 67}) sut.add({0, 0, 0, 0, 0, rank, 0});
     for (const Step& step : life()) sut.step(step);
 }
 
@@ -246,7 +246,7 @@ RC_GTEST_PROP(Engine, TakesTheBestLinkAsTheModelDoes, ()) {
 
 RC_GTEST_PROP(Engine, DecidesAsTheModelDoesBeyondSixtyFourLinks, (std::uint8_t bits)) {
     Life sut(options_of(bits), 59);
-    for (int i = 0; i < 8; ++i) sut.add({0, 0, 0, 0, 0, 3, 0});
+    for (int i = 0; i < 8; ++i) sut.add({0, 0, 0, 0, 0, static_cast<std::uint8_t>(i % 3 * 32 + 3), 0});
     for (const Step& step :
          *rc::gen::container<std::vector<Step>>(40, rc::gen::container<Step>(rc::gen::arbitrary<std::uint8_t>())))
         sut.step(step);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -12,9 +13,12 @@
 #include <utility>
 #include <vector>
 
+#include "mavloom/dialect/filter.hpp"
 #include "unit/route/route_frames.hpp"
 
 namespace mavloom::route::test {
+
+using Terms = dialect::FilterTerms;
 
 struct ModelPolicy {
     Terms in_allow{}, in_block{}, out_allow{}, out_block{};
@@ -22,8 +26,8 @@ struct ModelPolicy {
     GroupMode mode = GroupMode::all;
     std::uint32_t order = 0;
     std::uint32_t endpoint = 0;
-    std::uint64_t address = 0;
-    bool tap = false, is_private = false, is_verified = false, learns_first = false;
+    Rank rank = Rank::own;
+    bool tap = false, is_private = false, learns_first = false;
     std::optional<Nanoseconds> attitude_interval{}, other_interval{};
     std::optional<std::uint64_t> bytes_per_s{};
 };
@@ -47,7 +51,7 @@ public:
     void add(std::uint32_t id, const ModelPolicy& policy) {
         Link link;
         link.policy = policy;
-        link.tokens = link.verified_tokens = std::max(static_cast<double>(policy.bytes_per_s.value_or(0)) / 4, 560.0);
+        link.tokens = link.trusted_tokens = std::max(static_cast<double>(policy.bytes_per_s.value_or(0)) / 4, 560.0);
         if (policy.group != 0 && !policy.tap) {
             if (!group_modes_.contains(policy.group)) group_modes_[policy.group] = policy.mode;
             link.policy.mode = group_modes_[policy.group];
@@ -61,14 +65,13 @@ public:
             return h.link == link && h.system == system && h.component == component;
         };
         const auto source = std::find_if(heard_.begin(), heard_.end(), is_it);
-        if (source == heard_.end() || !source->known || now - source->last() >= options_.route_timeout) return false;
+        if (source == heard_.end() || !source->known || now - source->time >= options_.route_timeout) return false;
         for (Heard& h : heard_)
-            if (h.link == link && h.system == system) h.known = is_it(h) && !h.only_echoes;
+            if (h.link == link && h.system == system) h.known = is_it(h);
         if (source->known) source->time = source->since = now;
         return true;
     }
     void remove(std::uint32_t id) {
-        if (const auto link = links_.find(id); link != links_.end()) note_departure(id, link->second.policy);
         links_.erase(id);
         std::erase_if(heard_, [&](const Heard& h) { return h.link == id; });
         for (Recent& r : recent_) {
@@ -89,21 +92,20 @@ public:
         is_repeated_ = is_repeated;
         const auto frame = wire::FrameView::unchecked(bytes);
         now_ = now;
-        is_verified_ = links_.contains(ingress) && links_[ingress].policy.is_verified;
         Result result;
         if (!links_.contains(ingress)) {
             result.verdict = Verdict::unknown_link;
             for (const auto& [id, link] : links_) result.why[id] = Reason::dropped;
             return result;
         }
-        std::erase_if(heard_, [&](const Heard& h) { return now - h.last() >= options_.route_timeout; });
+        is_trusted_ = links_[ingress].policy.rank != Rank::stranger && !is_repeated;
+        std::erase_if(heard_, [&](const Heard& h) { return now - h.time >= options_.route_timeout; });
         for (const auto& [id, link] : links_) result.why[id] = Reason::dropped;
         Recent* remembered = nullptr;
         result.verdict = judge(ingress, bytes, frame, result.why, remembered);
         if (result.verdict != Verdict::tap) give_to_taps(frame, result.why);
         if (remembered != nullptr)
             for (const auto id : result.links()) remembered->sent.insert(id);
-        for (const auto id : result.links()) note_kept(links_[id], frame.system().value);
         return result;
     }
 
@@ -111,8 +113,7 @@ public:
     [[nodiscard]] std::set<std::tuple<std::uint32_t, int, int, std::uint64_t>> routes(MonoTime now) const {
         std::set<std::tuple<std::uint32_t, int, int, std::uint64_t>> list;
         for (const Heard& h : heard_)
-            if (h.known && now - h.last() < options_.route_timeout)
-                list.emplace(h.link, h.system, h.component, h.frames);
+            if (h.known && now - h.time < options_.route_timeout) list.emplace(h.link, h.system, h.component, h.frames);
         return list;
     }
 
@@ -120,17 +121,32 @@ private:
     struct Claim {
         MonoTime since{}, last{};
     };
+    // The frames that `max_rate` let pass (docs/guide/routing.md): the first, and one for each interval since then.
+    struct Stream {
+        MonoTime begin{};
+        int frames = 0;
+
+        [[nodiscard]] MonoTime next(Nanoseconds interval) const { return begin + frames * interval; }
+        // Early by half an interval or more, but less than 50 ms is never too early, and 0.5 s always is.
+        [[nodiscard]] bool is_early(MonoTime now, Nanoseconds interval) const {
+            const Nanoseconds early = next(interval) - now;
+            if (early < std::chrono::milliseconds{50}) return false;
+            return early >= std::chrono::milliseconds{500} || 2 * early >= interval;
+        }
+        // Late by a whole interval, and by 100 ms: the next frame is the first again.
+        [[nodiscard]] bool has_paused(MonoTime now, Nanoseconds interval) const {
+            const Nanoseconds late = now - next(interval);
+            return late >= interval && late >= std::chrono::milliseconds{100};
+        }
+    };
     struct Link {
         ModelPolicy policy{};
         std::map<std::uint8_t, Claim> claims{};  // by system
-        std::optional<MonoTime> last_echo{};
-        std::set<std::uint8_t> returned{};  // systems of which an echo came
-        std::vector<MonoTime> kept{};       // when frames of other systems were sent here, since the last of them came
         std::optional<MonoTime> last_heard{};
         std::uint32_t heartbeats = 0;  // against those of the other links of its group
-        // By source, message and whether the frame was verified.
-        std::map<std::pair<std::uint64_t, bool>, MonoTime> due{};
-        double tokens = 0, verified_tokens = 0;  // verified frames take from both
+        // By source, message and whether the frame was trusted.
+        std::map<std::pair<std::uint64_t, bool>, Stream> streams{};
+        double tokens = 0, trusted_tokens = 0;  // trusted frames take from both
         std::optional<MonoTime> filled{};
     };
     struct Heard {
@@ -139,19 +155,17 @@ private:
         MonoTime time, since;
         std::uint64_t frames = 0;
         bool known = true;
-        bool only_echoes = false;
-        std::optional<MonoTime> echoed{};
-
-        [[nodiscard]] MonoTime last() const { return only_echoes ? *echoed : std::max(time, echoed.value_or(time)); }
+    };
+    // The link that had a source last. It may be gone.
+    struct Had {
+        std::uint32_t link;
+        ModelPolicy policy;
+        MonoTime last;
     };
     struct Recent {
         Bytes bytes;
         MonoTime time;
         std::set<std::uint32_t> heard, sent;
-    };
-    struct Departed {
-        ModelPolicy policy;
-        MonoTime until;
     };
     using Why = std::map<std::uint32_t, Reason>;
     static constexpr std::uint32_t gone = ~std::uint32_t{0};  // in the place of a removed link
@@ -189,13 +203,10 @@ private:
                 return remember(ingress, bytes, frame, why, remembered);
             }
             const auto age = now_ - r->time;
-            if (age < std::chrono::seconds{2} && r->sent.contains(ingress)) {
-                learn_from_echo(ingress, frame);
-                return Verdict::echo;
-            }
+            if (age < std::chrono::seconds{2} && r->sent.contains(ingress)) return Verdict::echo;
             const bool again = r->heard.contains(ingress);
             const bool by_member = std::any_of(r->heard.begin(), r->heard.end(), [&](std::uint32_t id) {
-                return id != gone && id != ingress && is_same_place(link, links_[id]);
+                return id != gone && id != ingress && is_same_place(link.policy, links_[id].policy);
             });
             if ((by_member && !again && age < std::chrono::seconds{2}) || (age < options_.dedup && !r->heard.empty())) {
                 r->heard.insert(ingress);
@@ -219,12 +230,13 @@ private:
     // On a verified link, copies from unverified links do not count. Frames from private links count only there.
     [[nodiscard]] bool may_count(const Recent& r, const Link& link) const {
         if (r.heard.empty()) return true;
-        const auto some = [&](bool ModelPolicy::*kind, bool wanted) {
+        const auto some = [&](auto is_it) {
             return std::ranges::any_of(
-                r.heard, [&](std::uint32_t id) { return (id != gone && links_.at(id).policy.*kind) == wanted; });
+                r.heard, [&](std::uint32_t id) { return is_it(id == gone ? ModelPolicy{} : links_.at(id).policy); });
         };
-        if (link.policy.is_verified && !some(&ModelPolicy::is_verified, true)) return false;
-        return link.policy.is_private || some(&ModelPolicy::is_private, false);
+        const auto is_verified = [](const ModelPolicy& policy) { return policy.rank == Rank::verified; };
+        if (link.policy.rank == Rank::verified && !some(is_verified)) return false;
+        return link.policy.is_private || some([](const ModelPolicy& policy) { return !policy.is_private; });
     }
 
     Verdict decide_unless_private(std::uint32_t ingress, const wire::FrameView& frame, Why& why,
@@ -278,153 +290,84 @@ private:
         if (links_[ingress].policy.group != 0) count_heartbeat(links_[ingress], frame, is_doubled(ingress, frame));
         links_[ingress].last_heard = now_;
         if (system == 0 || info(frame) == nullptr) return;
-        if (!may_learn(ingress, system, component) || !may_return(ingress, system, component)) return;
+        if (!is_believed(ingress, system, component)) return;
         const auto same = [&](const Heard& h) {
             return h.link == ingress && h.system == system && h.component == component;
         };
         if (std::none_of(heard_.begin(), heard_.end(), same))
             heard_.push_back({ingress, system, component, now_, now_});
         Heard& heard = *std::find_if(heard_.begin(), heard_.end(), same);
-        if (!heard.known || heard.only_echoes) heard.since = now_;
+        if (!heard.known) heard.since = now_;
         heard.known = true;
-        heard.only_echoes = false;
         heard.time = now_;
         ++heard.frames;
-    }
-
-    // For a minute after each echo, what the link does not send back is looked at.
-    void note_kept(Link& link, std::uint8_t system) const {
-        const bool is_watched = link.last_echo && now_ - *link.last_echo < std::chrono::seconds{60};
-        if (is_watched && !link.returned.contains(system)) link.kept.push_back(now_);
-    }
-
-    // A link that kept five frames of systems of which it returned nothing, the first of them 2 s ago, does not send
-    // back what it gets: then an echo shows where its sender is. An echo also refreshes a route.
-    void learn_from_echo(std::uint32_t ingress, const wire::FrameView& frame) {
-        if (is_repeated_) return;
-        Link& link = links_[ingress];
-        const auto system = frame.system().value, component = frame.component().value;
-        if (link.last_echo && now_ - *link.last_echo >= std::chrono::seconds{60}) link.returned.clear();
-        link.last_echo = now_;
-        if (link.returned.insert(system).second) link.kept.clear();
-        const bool keeps_others = link.kept.size() >= 5 && now_ - link.kept.front() >= std::chrono::seconds{2};
-        if (system == 0 || info(frame) == nullptr) return;
-        if (!keeps_others && !is_fresh(ingress, system, component)) {
-            claim(link, system);
-            return;
-        }
-        if (!may_learn(ingress, system, component) || !may_return(ingress, system, component)) return;
-        const auto same = [&](const Heard& h) {
-            return h.link == ingress && h.system == system && h.component == component;
-        };
-        auto heard = std::find_if(heard_.begin(), heard_.end(), same);
-        if (heard == heard_.end()) {
-            heard_.push_back({ingress, system, component, {}, {}, 0, false});
-            heard = heard_.end() - 1;
-        }
-        if (!heard->known) heard->only_echoes = true;
-        heard->known = true;
-        heard->echoed = now_;
+        note_had(ingress, system, component);
     }
 
     // Links of a group lead to the same place, but nobody knows that of the unverified peers of one endpoint.
-    static bool are_peers(const Link& a, const Link& b) {
-        return a.policy.endpoint != 0 && a.policy.endpoint == b.policy.endpoint && !a.policy.is_verified &&
-               !b.policy.is_verified;
+    static bool are_peers(const ModelPolicy& a, const ModelPolicy& b) {
+        return a.endpoint != 0 && a.endpoint == b.endpoint && a.rank != Rank::verified && b.rank != Rank::verified;
     }
-    static bool is_same_place(const Link& a, const Link& b) {
-        return a.policy.group != 0 && a.policy.group == b.policy.group && !are_peers(a, b);
+    static bool is_same_place(const ModelPolicy& a, const ModelPolicy& b) {
+        return a.group != 0 && a.group == b.group && !are_peers(a, b);
     }
+    static bool is_autopilot(std::uint8_t system, std::uint8_t component) { return component == 1 && system != 255; }
 
-    // A vehicle that is alive elsewhere is learned only after 5 s without a gap of 2 s. Verified links come first.
-    bool may_learn(std::uint32_t ingress, std::uint8_t system, std::uint8_t component) {
-        Link& link = links_[ingress];
-        std::vector<std::uint32_t> others;
-        for (const auto& [id, other] : links_)
-            if (id != ingress && is_fresh(id, system, -1) && !is_same_place(link, other)) others.push_back(id);
-        if (others.empty()) return true;
-        const auto is_verified = [&](std::uint32_t id) { return links_[id].policy.is_verified; };
-        if (link.policy.is_verified) {
-            for (Heard& h : heard_)
-                if (h.system == system && in(others, h.link) && !is_verified(h.link)) h.known = false;
+    // Another place of this rank had the source within the time.
+    [[nodiscard]] bool has(Rank rank, Nanoseconds time, std::uint32_t by, std::uint8_t system, std::uint8_t component) {
+        const auto had = had_.find({rank, system, component});
+        return had != had_.end() && now_ - had->second.last < time && had->second.link != by &&
+               !is_same_place(had->second.policy, links_[by].policy);
+    }
+    // Rules 2 and 3.
+    bool is_believed(std::uint32_t ingress, std::uint8_t system, std::uint8_t component) {
+        const Rank rank = links_[ingress].policy.rank;
+        const auto has_it = [&](Rank other, Nanoseconds time) { return has(other, time, ingress, system, component); };
+        const bool is_protected = is_autopilot(system, component), is_fresh_here = is_fresh(ingress, system, component);
+        const bool is_refused = (rank != Rank::verified && has_it(Rank::verified, options_.route_timeout)) ||
+                                (rank == Rank::stranger && is_protected && has_it(Rank::own, std::chrono::seconds{2}));
+        if (is_refused && (!is_protected || is_fresh_here)) return false;
+        if (!is_refused && (rank != Rank::stranger || !is_protected || is_fresh_here ||
+                            !has_it(Rank::stranger, std::chrono::seconds{2})))
             return true;
-        }
-        if (std::ranges::any_of(others, is_verified)) return false;
-        if (system == 255 || is_alive({ingress}, system) || !is_alive(others, system)) return true;
-        const bool is_old = now_ - claim(link, system).since >= std::chrono::seconds{5};
-        return (is_old && !link.policy.learns_first) || is_fresh(ingress, system, component);
+        for (Heard& h : heard_)  // the count of frames of an ended route lives as long as claims come
+            if (h.link == ingress && h.system == system && h.component == component) h.time = now_;
+        const Claim& claim = claim_of(links_[ingress], system);
+        return !is_refused && now_ - claim.since >= std::chrono::seconds{5} && !links_[ingress].policy.learns_first;
     }
-    // A vehicle whose link goes away keeps its place: for 2 s after it was heard last, or on a verified link until the
-    // route would have timed out.
-    void note_departure(std::uint32_t id, const ModelPolicy& policy) {
-        for (const Heard& h : heard_) {
-            if (h.link != id || !h.known || !(policy.is_verified || has_settled(id, h.system))) continue;
-            const MonoTime until = h.last() + (policy.is_verified ? options_.route_timeout : std::chrono::seconds{2});
-            const auto known = departed_.find(h.system);
-            const bool is_kept = known != departed_.end() && known->second.until > now_;
-            const bool is_same = is_kept && leads_to(policy, known->second.policy);
-            if (until <= now_ || (is_kept && !is_same && !policy.is_verified)) continue;
-            departed_[h.system] = {policy, is_same ? std::max(until, known->second.until) : until};
-        }
-    }
-    [[nodiscard]] bool has_settled(std::uint32_t link, std::uint8_t system) const {
-        return is_alive({link}, system) && std::ranges::any_of(heard_, [&](const Heard& h) {
-                   return h.link == link && h.system == system && h.component == 1 &&
-                          now_ - h.since >= std::chrono::seconds{5};
-               });
-    }
-    static bool leads_to(const ModelPolicy& link, const ModelPolicy& departed) {
-        return link.address == departed.address || is_same_place({link}, {departed});
-    }
-    bool may_return(std::uint32_t ingress, std::uint8_t system, std::uint8_t component) {
-        const auto known = departed_.find(system);
-        if (known == departed_.end() || known->second.until <= now_) return true;
-        Link& link = links_[ingress];
-        if (link.policy.is_verified || leads_to(link.policy, known->second.policy)) {
-            departed_.erase(known);
-            return true;
-        }
-        if (system == 255) return true;
-        const bool is_old = now_ - claim(link, system).since >= std::chrono::seconds{5};
-        if (known->second.policy.is_verified) return false;
-        return (is_old && !link.policy.learns_first) || is_fresh(ingress, system, component);
-    }
-    // Whether the autopilot was heard on one of the links in the last 2 s. Its echoes count as well, if the link sends
-    // back no other system.
-    [[nodiscard]] bool is_alive(const std::vector<std::uint32_t>& links, std::uint8_t system) const {
-        return std::ranges::any_of(heard_, [&](const Heard& h) {
-            return h.known && !h.only_echoes && in(links, h.link) && h.system == system && h.component == 1 &&
-                   now_ - (returns_others(h.link, system) ? h.time : h.last()) < std::chrono::seconds{2};
-        });
-    }
-    [[nodiscard]] bool returns_others(std::uint32_t link, std::uint8_t system) const {
-        return std::ranges::any_of(links_.at(link).returned, [&](auto other) { return other != system; });
-    }
-    Claim claim(Link& link, std::uint8_t system) const {
+    // A gap of two seconds, or a route, begins a claim again.
+    Claim& claim_of(Link& link, std::uint8_t system) const {
         Claim& claim = link.claims.try_emplace(system, Claim{now_, now_}).first->second;
         if (now_ - claim.last >= std::chrono::seconds{2}) claim.since = now_;
         claim.last = now_;
         return claim;
     }
-
-    // Since when the source is on the link, if it was heard there twice at least half a second apart, and in the last
-    // 3 s.
-    [[nodiscard]] std::optional<MonoTime> present_since(std::uint32_t link, const wire::FrameView& frame) const {
-        for (const Heard& h : heard_)
-            if (h.known && !h.only_echoes && h.link == link && h.system == frame.system().value &&
-                h.component == frame.component().value && h.time - h.since >= std::chrono::milliseconds{500} &&
-                now_ - h.time < std::chrono::seconds{3})
-                return h.since;
-        return std::nullopt;
+    void note_had(std::uint32_t ingress, std::uint8_t system, std::uint8_t component) {
+        const ModelPolicy& policy = links_[ingress].policy;
+        links_[ingress].claims.erase(component == 1 ? system : std::uint8_t{0});
+        if (policy.rank != Rank::verified && !is_autopilot(system, component)) return;
+        had_[{policy.rank, system, component}] = {ingress, policy, now_};
+        for (Heard& h : heard_)
+            if (h.system == system && h.component == component && links_[h.link].policy.rank < policy.rank &&
+                !is_same_place(links_[h.link].policy, policy))
+                h.known = false;
     }
 
-    bool is_origin(std::uint32_t link, std::uint32_t ingress, const wire::FrameView& frame, bool is_directed) {
-        const auto since = present_since(link, frame), here = present_since(ingress, frame);
-        if (!since || !here) return since.has_value();
-        if (is_directed) return false;
-        if (*here >= *since) return true;
-        if (links_[link].policy.learns_first) return false;
-        return now_ - *since >= std::chrono::seconds{5};
+    // The link heard the source within 3 s, and no later than the other link did. An own link may be later, if it heard
+    // the source for half a second.
+    bool is_origin(std::uint32_t link, std::uint32_t ingress, const wire::FrameView& frame) const {
+        const auto route_on = [&](std::uint32_t id) {
+            return std::ranges::find_if(heard_, [&](const Heard& h) {
+                return h.known && h.link == id && h.system == frame.system().value &&
+                       h.component == frame.component().value;
+            });
+        };
+        const auto there = route_on(link), here = route_on(ingress);
+        if (there == heard_.end() || now_ - there->time >= std::chrono::seconds{3}) return false;
+        if (links_.at(link).policy.rank < links_.at(ingress).policy.rank) return false;
+        if (here == heard_.end() || there->since <= here->since) return true;
+        return links_.at(link).policy.rank != Rank::stranger &&
+               there->time - there->since >= std::chrono::milliseconds{500};
     }
 
     static const wire::MessageInfo* info(const wire::FrameView& frame) {
@@ -442,33 +385,41 @@ private:
         const auto system = std::max(target(frame, "target_system"), target(frame, "target"));
         const auto component = target(frame, "target_component");
         const bool exact = component != 0 && is_fresh_anywhere(system, component);
-        bool broadcast = system == 0;
-        if (!broadcast) {
-            if (options_.own == Source{SystemId{system}, ComponentId{component}}) return Verdict::consumed;
-            if (options_.unknown_target == UnknownTarget::flood && links_[ingress].policy.is_verified &&
-                std::ranges::none_of(links_, [&](const auto& l) {
-                    return l.second.policy.is_verified && is_fresh(l.first, system, -1);
-                })) {
-                broadcast = true;
-            } else if (!is_fresh_anywhere(system, -1)) {
-                if (options_.unknown_target == UnknownTarget::drop) return Verdict::unknown_target;
-                broadcast = true;
-            } else if (component != 0 && !exact && options_.unknown_component == UnknownComponent::drop) {
-                return Verdict::unknown_target;
-            }
-        }
+        if (system != 0 && options_.own == Source{SystemId{system}, ComponentId{component}}) return Verdict::consumed;
+        const Rank rank = links_[ingress].policy.rank;
+        const bool floods = system != 0 && options_.unknown_target == UnknownTarget::flood;
+        const bool is_known = is_fresh_anywhere(system, -1);
+        const bool broadcast = system == 0 || (floods && !is_known);
+        // Only lower ranks know the system: links of this rank and above get the frame as if nobody did.
+        const bool is_for_equals = floods && is_known && best_rank(system, -1) < std::optional(rank);
+        const bool is_dropped = component != 0 && !exact && options_.unknown_component == UnknownComponent::drop;
+        if (!broadcast && !is_for_equals && (!is_known || is_dropped)) return Verdict::unknown_target;
         for (auto& [id, link] : links_) {
             const auto& policy = link.policy;
             if (policy.tap) continue;
-            const bool has_target = !broadcast && is_fresh(id, system, exact ? component : -1);
+            // Of a component that only lower ranks have, the system's links of higher ranks hear too.
+            const bool is_higher = exact && !is_autopilot(system, component) &&
+                                   options_.unknown_component == UnknownComponent::system && !policy.is_private &&
+                                   is_fresh(id, system, -1) && best_rank(system, component) < std::optional(policy.rank);
+            const bool is_reached = !is_dropped && (is_fresh(id, system, exact ? component : -1) || is_higher);
+            const bool has_target = !broadcast &&
+                                    (is_reached || (is_for_equals && !policy.is_private && policy.rank >= rank));
             if (policy.is_private && !(exact && has_target)) why[id] = Reason::private_link;
             else if (!broadcast && !has_target) why[id] = Reason::other_target;
             else if (policy.group != 0 && policy.group == links_[ingress].policy.group) why[id] = Reason::same_group;
-            else if (is_origin(id, ingress, frame, !broadcast)) why[id] = Reason::source_here;
+            else if (system == 0 && is_origin(id, ingress, frame)) why[id] = Reason::source_here;
             else why[id] = Reason::sent;
             if (id == ingress) why[id] = Reason::ingress;
         }
         return narrow(frame, why, have_it, sent_it);
+    }
+
+    // The highest rank of the links that have it; empty, which is less than all ranks, if none has.
+    [[nodiscard]] std::optional<Rank> best_rank(std::uint8_t system, int component) const {
+        std::optional<Rank> best;
+        for (const auto& [id, link] : links_)
+            if (is_fresh(id, system, component)) best = std::max(best, std::optional(link.policy.rank));
+        return best;
     }
 
     static bool any_sent(const Why& why) {
@@ -503,8 +454,8 @@ private:
         for (const auto id : members)
             if (!is_silent(links_[id])) alive.push_back(id);
         if (alive.empty()) return;
-        if (std::ranges::any_of(alive, [&](auto id) { return links_[id].policy.is_verified; }))
-            std::erase_if(alive, [&](auto id) { return !links_[id].policy.is_verified; });
+        const auto is_verified = [&](auto id) { return links_[id].policy.rank == Rank::verified; };
+        if (std::ranges::any_of(alive, is_verified)) std::erase_if(alive, std::not_fn(is_verified));
         std::stable_sort(alive.begin(), alive.end(),
                          [&](auto a, auto b) { return links_[a].policy.order < links_[b].policy.order; });
         std::uint32_t chosen = alive.front();
@@ -519,7 +470,9 @@ private:
             current_[group] = chosen;
         }
         for (const auto id : members)
-            if (id != chosen && !are_peers(links_[id], links_[chosen])) why[id] = Reason::other_member;
+            if (id != chosen &&
+                (links_[chosen].policy.endpoint == 0 || links_[id].policy.endpoint != links_[chosen].policy.endpoint))
+                why[id] = Reason::other_member;
     }
 
     // docs/guide/queues.md: of class 0 the test has HEARTBEAT, COMMAND_LONG, SET_MODE; of class 1 MANUAL_CONTROL.
@@ -532,30 +485,26 @@ private:
         else if (!is_spared_by_star(frame.id().value)) interval = link.policy.other_interval;
         const std::pair key{
             std::uint64_t{frame.system().value} << 40 | std::uint64_t{frame.component().value} << 32 | frame.id().value,
-            is_verified_};
-        const auto due = link.due.find(key);
-        // Early by less than half an interval, at least 50 ms and at most 0.5 s, passes (docs/guide/queues.md).
-        const Nanoseconds grace = interval ? std::clamp<Nanoseconds>(*interval / 2, std::chrono::milliseconds{50},
-                                                                     std::chrono::milliseconds{500})
-                                           : Nanoseconds{};
-        if (interval && due != link.due.end() && due->second - now_ >= grace) return Reason::rate_limited;
+            is_trusted_};
+        Stream stream = link.streams.contains(key) ? link.streams[key] : Stream{now_};
+        if (interval && stream.is_early(now_, *interval)) return Reason::rate_limited;
         if (link.policy.bytes_per_s) {
             const auto rate = static_cast<double>(*link.policy.bytes_per_s);
-            for (double* tokens : {&link.tokens, &link.verified_tokens})
+            for (double* tokens : {&link.tokens, &link.trusted_tokens})
                 if (link.filled)
                     *tokens = std::min(*tokens + std::chrono::duration<double>(now_ - *link.filled).count() * rate,
                                        std::max(rate / 4, 560.0));
             link.filled = now_;
             const auto size = static_cast<double>(frame.size());
-            const double left = is_verified_ ? link.verified_tokens : link.tokens;
+            const double left = is_trusted_ ? link.trusted_tokens : link.tokens;
             if (!is_essential(frame.id().value) && left < size) return Reason::bytes_limited;
             link.tokens = std::max(link.tokens - size, -rate);
-            if (is_verified_) link.verified_tokens = std::max(link.verified_tokens - size, -rate);
+            if (is_trusted_) link.trusted_tokens = std::max(link.trusted_tokens - size, -rate);
         }
         if (interval) {
-            const bool in_step = due != link.due.end() &&
-                                 now_ - due->second < std::max<Nanoseconds>(*interval, std::chrono::milliseconds{100});
-            link.due[key] = (in_step ? due->second : now_) + *interval;
+            if (stream.has_paused(now_, *interval)) stream = {now_};
+            ++stream.frames;
+            link.streams[key] = stream;
         }
         return otherwise;
     }
@@ -570,11 +519,11 @@ private:
 
     Options options_;
     MonoTime now_{};
-    bool is_verified_ = false, is_repeated_ = false;  // the frame being routed
+    bool is_trusted_ = false, is_repeated_ = false;  // the frame being routed
     std::map<std::uint32_t, Link> links_;
     std::map<std::uint32_t, GroupMode> group_modes_;  // the first link of a group decides
     std::map<std::uint32_t, std::uint32_t> current_;  // of a `best` group
-    std::map<std::uint8_t, Departed> departed_;       // by system
+    std::map<std::tuple<Rank, std::uint8_t, std::uint8_t>, Had> had_;
     std::vector<Heard> heard_;
     std::vector<Recent> recent_;
     std::vector<Recent> beats_;  // HEARTBEATs of groups

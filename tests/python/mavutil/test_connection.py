@@ -448,11 +448,10 @@ def test_a_program_may_parse_and_post_messages_itself(peer):
 
 
 @pytest.mark.parametrize("device, text", [
-    ("wsserver:0.0.0.0:80", "there is no web socket server here"), ("unix:/run/x", "no Unix stream sockets here"),
+    ("unix:/run/x", "no Unix stream sockets here"), ("ws:0.0.0.0", "WebSocket ports must be given as host:port"),
     ("csv:x.csv", "CSV files are not read here: use pymavlink's CSVReader"),
     ("x.px4log", "old logs of PX4 are not read here: use pymavlink's DFReader"),
-    ("wss:example.org:443", "there are no web sockets here: use tcp:HOST:PORT"),
-    ("ws:0.0.0.0:80", "there is no web socket server here: use tcpin:HOST:PORT"),
+    ("wss:example.org:443", "there is no TLS here: use ws:HOST:PORT to a proxy"),
     ("uds:/run/x", "there are no Unix stream sockets here"), ("sim.elf", "programs are not started here"),
     ("udpin:127.0.0.1", "UDP ports must be given as host:port"), ("tcp:x", "TCP ports must be given as host:port"),
     ("udpin:127.0.0.1:99999", "'99999' is not a port"), ("udpin:h:abc", "'abc' is not a port"),
@@ -497,7 +496,7 @@ def test_attributes_without_a_meaning_name_what_to_use(name, text):
 
 
 @pytest.mark.parametrize("name, text", [
-    ("mavwebsocket", "there is no web socket server here: use tcpin:HOST:PORT"), ("mavuds", "use tcp:HOST:PORT"),
+    ("mavuds", "use tcp:HOST:PORT"),
     ("mavchildexec", "start the program yourself"), ("MavlinkSerialPort", "SERIAL_CONTROL"),
     ("no_such", "has no attribute 'no_such'")])
 def test_names_of_the_module_without_a_meaning_name_what_to_use(name, text):

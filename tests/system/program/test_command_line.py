@@ -73,7 +73,12 @@ def test_an_option_before_the_command_is_explained(run, arguments):
 @pytest.mark.parametrize("arguments, said", [
     (["play", "x.tlog"], "unknown command 'play', did you mean 'replay'?"),
     (["listen", "00000012.BIN"], "ArduPilot's own log (DataFlash)"),
-    (["replay", "x.tlog", OUT], f"'{OUT}' is not expected here; to send there, type --to {OUT}"),
+    (["replay", "x.tlog", OUT, "--speed", "2"],
+     f"'{OUT}' is not expected here; to send to {OUT}, type mavloom replay x.tlog --to {OUT} --speed 2"),
+    (["relay", "x.tlog", OUT],
+     f"--to is required; to send to {OUT}, type mavloom relay x.tlog --to {OUT}"),
+    (["relay", IN], "--to is required\n"),
+    (["relay", "x.tlog", OUT, "--to"], "--to: 1 required ENDPOINT missing\n"),
     (["ctl", "takeoff", "10"], "the name of the simulator comes before it: mavloom ctl sim takeoff 10"),
     (["ctl", "links"], "the name of the router or simulator comes before it: mavloom ctl router links"),
     (["ctl", "sim"], "the action is missing: mavloom ctl sim ACTION, which is one of links, routes, "),
@@ -149,7 +154,7 @@ def test_one_is_singular(run, tmp_path):
     assert ": 1 frame, 0 lost" in listened.stdout and "total heard: 1 frame, 21 bytes" in listened.stdout
     assert "junk_bytes: 1 byte outside" in listened.stdout and "damaged_places: 1 damaged place in" in listened.stdout
     relayed = run("relay", log, "--to", f"tlog://{tmp_path}/out.tlog", "--only", "ATTITUDE")
-    assert "1 frame in, " in relayed.stderr and "filtered: 1 frame that --only or --from leave out" in relayed.stderr
+    assert "1 frame in, " in relayed.stderr and "filtered: 1 frame that --only leaves out" in relayed.stderr
     assert re.search(r"\(1 frame, 21 bytes, median of 1 turn\)", run("bench", "parse", log, "--turns", "1").stdout)
     for text in (replayed.stderr, listened.stdout, relayed.stderr):
         assert re.search(r"\b1 (frame|byte|place|message|datagram)s\b", text) is None, text
@@ -189,7 +194,7 @@ def test_a_destination_is_left_alone_when_the_input_is_wrong(run, tmp_path, comm
 def test_listening_is_reported(spawn, arguments):
     process = spawn(*arguments)
     scheme = arguments[1].split(":")[0]
-    process.wait_output(rf"^mavloom: {scheme}://127\.0\.0\.1:[1-9]\d*: listening\b(?! on)", stream="err")
+    process.wait_output(rf"^mavloom: [\d: -]{{19}} {scheme}://127\.0\.0\.1:[1-9]\d*: listening\b(?! on)", stream="err")
 
 
 def test_a_smaller_receive_buffer_gets_a_hint(spawn):

@@ -47,6 +47,15 @@ def test_what_a_link_lost_is_summed_once_however_often_it_came_back(spawn):
     assert (totals["frames"], totals["junk_bytes"]) == (2, 10)
 
 
+def test_the_totals_count_web_pages_that_were_turned_away(spawn):
+    process = spawn("listen", "tcpin://127.0.0.1:0", "--json", "--stats")
+    with socket.create_connection(("127.0.0.1", port_of(process)), harness.DEFAULT_TIMEOUT_S) as page:
+        page.sendall(b"POST / HTTP/1.1\r\n")
+        assert page.recv(1) == b""
+
+    assert json_lines(process.stop().stdout)[-1]["stats"]["totals"]["http_refused"] == 1
+
+
 def test_prints_every_message_of_a_recording(run):
     done = run("listen", frames.FLIGHT)
 
@@ -167,6 +176,10 @@ def test_stats_as_json_agree_with_the_recordings_table(run):
     assert rates["ATTITUDE"] == pytest.approx(49.06, abs=0.02)
     gaps = {row["name"]: row["gap_max_ms"] for row in vehicle["messages"]}
     assert gaps["ATTITUDE"] == pytest.approx(70.85, abs=0.01)
+    rows = {row["name"]: row for row in vehicle["messages"]}  # tests/unit/observe/latest_table_test.cpp
+    assert rows["ATTITUDE"]["share"] == pytest.approx(0.115799, abs=1e-6)
+    assert rows["ATTITUDE"]["jitter_ms"] == pytest.approx(0.124, abs=0.001)
+    assert (rows["ATTITUDE"]["instance"], rows["BATTERY_STATUS"]["instance"]) == (None, 0)
     assert stats["totals"]["frames"] == 40087
 
 
@@ -473,7 +486,7 @@ def test_the_end_comes_although_a_recording_is_nothing_but_damage(run):
 @pytest.mark.parametrize("arguments, status, said", [
     (["--only", "ATITUDE"], 2, "did you mean 'ATTITUDE'"),
     (["--csv", "ATTITUD"], 2, "did you mean 'ATTITUDE'"),
-    (["--from", "1/x"], 2, "--from 1/1"),
+    (["--from", "1/x"], 2, "as in 1/1"),
     (["--for", "soon"], 2, "--for"),
     (["--buffer", "much"], 2, "--buffer"),
     (["--nonsense"], 2, "--help"),
@@ -537,7 +550,7 @@ def test_unsigned_frames_of_strangers_are_bad_signatures(run, spawn, tmp_path, u
 
 
 def test_a_file_that_is_no_recording(run):
-    done = run("listen", f"tlog://{harness.ROOT / 'README.md'}")
+    done = run("listen", f"tlog://{harness.ROOT / 'docs/pictures/top.png'}")
 
     assert done.status == 3
     assert "holds no record" in done.stderr

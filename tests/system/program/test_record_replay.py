@@ -68,7 +68,7 @@ def test_an_existing_file_is_renamed(run, tmp_path):
 
 LOSSES = ["kernel_drop", "buffer_full", "lapped", "bad_records", "other_kinds", "copies", "echo", "crc_error",
           "junk_bytes", "damaged_places", "unknown_flags", "bad_signature", "wrong_peer", "bad_source",
-          "stray_bytes", "peers_refused"]
+          "stray_bytes", "peers_refused", "http_refused", "wrong_origin", "bad_handshake", "bad_message"]
 
 
 def sums(done):

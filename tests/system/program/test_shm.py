@@ -19,7 +19,7 @@ import pytest
 import harness
 
 SHM = pathlib.Path("/dev/shm")
-LEAST_RECORD_BYTES = 24  # its header
+MIN_RECORD_BYTES = 24  # its header
 short = pytest.mark.short
 
 
@@ -208,7 +208,7 @@ def test_a_lapped_reader_ends_with_status_4(run, start, spawn, ring):
     reader.wait_output("sequence", stream="out")
     reader.send(signal.SIGSTOP)
     before = stat_of(run, ring)
-    lap = before["capacity"] // LEAST_RECORD_BYTES
+    lap = before["capacity"] // MIN_RECORD_BYTES
     harness.wait_for(lambda: stat_of(run, ring)["records"] > before["records"] + lap, what="a lap")
     reader.send(signal.SIGCONT)
     done = reader.wait(timeout=120)

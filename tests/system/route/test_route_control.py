@@ -263,6 +263,16 @@ def test_nobody_of_that_name(run, args):
     assert done.status == 1 and "no router or simulator called 'nobody-at-all' runs here" in done.stderr
 
 
+def test_without_a_router_the_names_of_others_are_listed(spawn, run, tmp_path):
+    env = {"MAVLOOM_RUN": str(tmp_path)}
+    spawn("sim", "--listen", "tcpin://127.0.0.1:0", "--name", "bird", env=env)
+    harness.wait_for(lambda: run("ctl", "bird", "state", env=env).status == 0, what="the simulator's answer")
+
+    for command in (("stat",), ("ctl", "router", "links")):
+        done = run(*command, env=env)
+        assert done.status == 1 and done.stderr.endswith("; running: bird\n"), done
+
+
 def test_the_socket_survives_whatever_is_sent(net):
     sut = net(("udpout", "tcpin"))
     path = control_path(sut.router)
@@ -582,7 +592,7 @@ def test_metrics_are_what_prometheus_reads(net, run, tmp_path):
     version, = (dict(labels)["version"] for name, labels in read if name == "mavloom_build_info")
     assert version in run("--version").stdout
     assert all(f"# HELP {name} " in text for name, _ in read)
-    assert not re.findall(r"^# HELP mavloom_([a-z]+)_(\w+)_total Of each \1: \2\.$", text, re.M), "names without help"
+    assert not re.findall(r"^# HELP \w+ Of each \w+: \W*$", text, re.M), "names without help"
     others = {key for key in set(read) - set(expected) if key[0] != "mavloom_build_info"}
     assert others == {key for key in read if key[0].startswith(("mavloom_message_", "mavloom_system_"))}
     assert read["mavloom_system_frames_total", frozenset({("link", "A"), ("sys", "1")})] == sum(
@@ -1013,7 +1023,7 @@ def test_explain_states_for_every_link_why(net):
         "x A: it came from this link", "-> B: sent", "x C: filtered on the way out",
         "-> D: sent, a tap gets everything"]
     assert block(r"COMMAND_LONG 1/1 seq \d+ from A: forwarded") == [
-        "x A: it came from this link", "-> B: sent", "x C: its target was not heard on this link",
+        "x A: it came from this link", "-> B: sent", "x C: its target has no route on this link",
         "-> D: sent, a tap gets everything"]
     assert block(r"COMMAND_LONG 1/1 seq \d+ from A: unknown_target")[1:] == [
         "x B: the frame goes to no link", "x C: the frame goes to no link", "-> D: sent, a tap gets everything"]
@@ -1167,6 +1177,22 @@ def sut_frame(sut, start, frame, end):
     sut.last = frame
     sut[start].send(frame)
     return sut[end].next()
+
+
+def test_with_sign_all_what_own_links_brought_is_signed_too(net, run, tmp_path):
+    key = new_key(run, tmp_path / "link.key")
+    sut = net(("udpout", "udpin", "udpout"),
+              options={1: f"sign={tmp_path}/link.key&sign_all=true", 2: "trusted=false"})
+    sut.settle()
+    sut[3].send(own := attitude(VEHICLE))
+    got = sut[1].next()
+    assert unsigned_part(got) == unsigned_part(own) and got[2] == 1
+    verifier(key).decode(bytearray(got))
+
+    before = sut.router.stats("router")[0]["not_signed"]
+    sut[2].send(foreign := attitude((5, 5)))
+    assert sut[1].next() == foreign, "nobody vouches for a stranger"
+    assert sut.router.stats("router")[0]["not_signed"] == before + 1
 
 
 def test_no_frame_of_an_unverified_link_is_signed(net, run, tmp_path):
@@ -1379,7 +1405,7 @@ BAD_FILES = [
      "bad.toml:2: sign: cannot open key file /none.key"),
     ("the main.conf of mavlink-router", "[General]\nTcpServerPort=5760\n",
      "bad.toml:1: this is a configuration of mavlink-router; to convert it, type mavloom check --convert"),
-    ("a page that does not exist", "[web]\nlisten = '127.0.0.1:8088'\n", "bad.toml:1: this version has no web page"),
+    ("a place of the page that is none", "[web]\nlisten = '8088'\n", "bad.toml:2: listen: '8088' is not HOST:PORT"),
     ("a router that calls itself",
      "[[endpoint]]\nurl = 'tcpin://127.0.0.1:5760'\n[[endpoint]]\nurl = 'tcpout://localhost:5760'\n",
      "bad.toml:4: tcpout://localhost:5760 is where tcpin://127.0.0.1:5760 listens"),

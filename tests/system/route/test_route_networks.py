@@ -262,7 +262,7 @@ def test_tcp_in_pieces_keeps_frames_whole_and_in_order(spawn, rng):
     vehicle, station = UdpEnd((LOCALHOST, routers.udp_port())), UdpEnd(label="station")
     ground = Router(spawn, f"tcpin://{LOCALHOST}:{port}?name=in", f"udpout://{LOCALHOST}:{station.port}?name=station")
     with contextlib.closing(vehicle), contextlib.closing(station), \
-            TcpImpairer((LOCALHOST, port), rng, delay=0.002, jitter=0.01, most_bytes=300) as link:
+            TcpImpairer((LOCALHOST, port), rng, delay=0.002, jitter=0.01, max_bytes=300) as link:
         air = Router(spawn, f"udpin://{LOCALHOST}:{vehicle.target[1]}", f"tcpout://{LOCALHOST}:{link.port}?name=out")
         air.wait_links(1)
         ground.wait_links(2)

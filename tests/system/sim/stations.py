@@ -264,8 +264,9 @@ class Station:
 
     # ---- parameters
 
-    def parameters(self, timeout=harness.DEFAULT_TIMEOUT_S):
-        """{name: PARAM_VALUE} of the whole list, lost ones requested by index."""
+    def parameters(self, timeout=harness.DEFAULT_TIMEOUT_S, patience=0.5):
+        """{name: PARAM_VALUE} of the whole list. If none arrives for `patience` seconds, lost ones are requested by
+        index."""
         mark = self.mark()
         self.send_to_vehicle("param_request_list")
         deadline, got = time.monotonic() + timeout, {}
@@ -276,7 +277,7 @@ class Station:
                 return {m.param_id: m for m in got.values()}
             before = len(got)
             with contextlib.suppress(AssertionError):
-                self.expect("PARAM_VALUE", since=self.mark(), timeout=0.5)
+                self.expect("PARAM_VALUE", since=self.mark(), timeout=patience)
                 continue
             if not got:
                 self.send_to_vehicle("param_request_list")

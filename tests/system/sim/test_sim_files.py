@@ -1,23 +1,18 @@
 # SPDX-License-Identifier: MIT
-"""Behaviours 56 to 63 of docs/guide/sim-behaviour.md: files, logs and metadata. pymavlink's own mavftp module is one
-client, MAVSDK another."""
+"""Behaviours 56 to 63 of docs/guide/sim-behaviour.md: files, logs and metadata; logs/ has what is in a log. pymavlink's
+own mavftp module is one client, MAVSDK another."""
 import json
-import math
-import os
 import time
 
-import numpy
 import pytest
-import pyulog
-from pymavlink import DFReader
 
 import ftp as protocol
 import mavsdks
 import mavutils
-from flights import fly_to, ready_vehicle, results_in_time
+from flights import results_in_time
 from ftp import FtpClient
 from impairer import Profile, UdpImpairer
-from simulators import metadata_file, metres_between, place
+from simulators import metadata_file
 from stations import crc32
 
 
@@ -119,91 +114,6 @@ def test_b62_logs_can_be_listed_and_downloaded(sim):
     assert two["result"] == "SUCCESS" and len(two["entries"]) == 2
     assert two["sizes"] == [size for _, size in two["entries"]] * 2 and min(two["sizes"]) > 1000
     assert two["same"]
-
-
-def log_files(station):
-    """The paths of all logs."""
-    folders, files = ["/@MAV_LOG"], set()
-    for folder in folders:
-        for entry in FtpClient(station).list(folder):
-            path = f"{folder}/{entry[1:].split(chr(9))[0]}"
-            if entry[0] == "D":
-                folders.append(path)
-            else:
-                files.add(path)
-    return files
-
-
-def flown_log(sim, tmp_path, autopilot):
-    """The station of a short flight, with the file of its log."""
-    station = ready_vehicle(sim, autopilot=autopilot)
-    before = log_files(station)
-    mark = station.mark()
-    station.simulator.ctl("takeoff", 12)
-    station.height_is(12)
-    fly_to(station, 40, 20, 12)
-    station.expect("GLOBAL_POSITION_INT", where=lambda m: math.hypot(m.vx, m.vy) > 300)
-    station.simulator.ctl("mode", "Return" if autopilot == "px4" else "RTL")
-    station.armed_is(False, timeout=60, since=station.mark())
-    station.flight_mark = mark
-    path, = log_files(station) - before
-    with mavutils.connected(station.vehicle_port) as connection:
-        content = mavutils.download(connection, path)
-    file = tmp_path / os.path.basename(path)
-    file.write_bytes(content)
-    return station, file
-
-
-def off_track(station, times, latitudes, longitudes):
-    """The greatest distance between GLOBAL_POSITION_INT and the log's position at the same time, in metres."""
-    sent = [m for m in station.since(station.flight_mark, "GLOBAL_POSITION_INT")
-            if times[0] <= m.time_boot_ms / 1000 <= times[-1]]
-    assert len(sent) > 50
-    at = [m.time_boot_ms / 1000 for m in sent]
-    logged = zip(numpy.interp(at, times, latitudes), numpy.interp(at, times, longitudes))
-    return max(metres_between(place(m), where) for m, where in zip(sent, logged))
-
-
-def greatest_height(station):
-    """Of the flight by its telemetry, in metres above home."""
-    return max(m.relative_alt for m in station.since(station.flight_mark, "GLOBAL_POSITION_INT")) / 1000
-
-
-def test_b62_pyulog_reads_the_log_of_a_flight(sim, tmp_path):
-    station, file = flown_log(sim, tmp_path, "px4")
-    log = pyulog.ULog(str(file))
-    topics = {topic.name: topic.data for topic in log.data_list}
-    position, battery = topics["vehicle_global_position"], topics["battery_status"]
-
-    assert {"vehicle_attitude", "vehicle_local_position", "vehicle_gps_position", "vehicle_status"} <= topics.keys()
-    assert off_track(station, position["timestamp"] / 1e6, position["lat"], position["lon"]) < 0.3
-    assert position["alt"].max() == pytest.approx(489.4 + greatest_height(station), abs=0.3)
-    assert 5 in topics["vehicle_status"]["nav_state"] and 4 in topics["vehicle_status"]["nav_state"]
-    assert battery["remaining"][-1] < battery["remaining"][0] <= 1
-    assert set(log.initial_parameters) == set(station.parameters()) - {"_HASH_CHECK"}
-    assert log.initial_parameters["COM_DISARM_PRFLT"] == 600
-    texts = [message.message for message in log.logged_messages]
-    assert texts[0] == "Armed by external command" and "Takeoff detected" in texts
-    assert texts[-1] == "Disarmed by landing"
-
-
-def test_b62_pymavlink_reads_the_log_of_a_flight(sim, tmp_path):
-    station, file = flown_log(sim, tmp_path, "ardupilot")
-    log = DFReader.DFReader_binary(str(file))
-    messages = {}
-    while (message := log.recv_msg()) is not None:
-        messages.setdefault(message.get_type(), []).append(message)
-    times = [m.TimeUS / 1e6 for m in messages["POS"]]
-
-    assert off_track(station, times, [m.Lat for m in messages["POS"]], [m.Lng for m in messages["POS"]]) < 0.3
-    assert max(m.RelHomeAlt for m in messages["POS"]) == pytest.approx(greatest_height(station), abs=0.3)
-    assert messages["MODE"][-1].Mode == 6 and log.flightmode == "RTL"
-    assert all(m.fmt.units is not None for kind in ("ATT", "GPS", "POS", "BAT") for m in messages[kind][:1])
-    assert abs(messages["GPS"][0]._timestamp - time.time()) < 600
-    assert messages["BAT"][-1].CurrTot > messages["BAT"][0].CurrTot
-    assert log.params["DISARM_DELAY"] == 127
-    texts = [m.Message for m in messages["MSG"]]
-    assert texts[0].startswith("ArduCopter V4.6") and texts[1] == "Arming motors" and texts[-1] == "Disarming motors"
 
 
 def test_b63_metadata_leads_to_all_parameters(px4):

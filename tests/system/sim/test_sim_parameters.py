@@ -35,7 +35,7 @@ def metadata(station):
 def test_b34_the_list_is_complete(request, firmware):
     station = request.getfixturevalue(firmware)
     mark = station.mark()
-    parameters = station.parameters()
+    parameters = station.parameters(patience=10)
     values = [m for m in station.since(mark, "PARAM_VALUE") if m.param_index != 0xFFFF]
 
     assert len(parameters) == len(values) == values[0].param_count > 100

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Behaviours 83 to 90 of docs/guide/sim-behaviour.md, and what the vehicle does about clients that misbehave."""
 import contextlib
+import json
 import os
 import signal
 import socket
@@ -210,15 +211,22 @@ def test_b88_the_end_leaves_no_partial_frames(sim, udp_socket):
 
 
 def test_a_web_page_arms_no_simulated_vehicle(sim):
-    simulator = sim(listen=("tcpin://127.0.0.1:0",))
-    arm = mavlink.MAVLink_command_long_message(1, 1, mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 0, 1, 0, 0, 0, 0, 0, 0)
-    request = b"POST / HTTP/1.1\r\nOrigin: https://evil.example\r\n\r\n" + arm.pack(mavlink.MAVLink(None, 255, 190))
+    simulator = sim(listen=("tcpin://127.0.0.1:0", "udpin://127.0.0.1:0"))
+    simulator.station(port=simulator.listening_port(1)).ready()
+    order = mavlink.MAVLink_command_long_message(1, 1, mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 0, 1, 0, 0, 0, 0, 0, 0)
+    request = b"POST / HTTP/1.1\r\nOrigin: https://evil.example\r\n\r\n" + order.pack(mavlink.MAVLink(None, 255, 190))
     with socket.create_connection(("127.0.0.1", simulator.port), timeout=harness.DEFAULT_TIMEOUT_S) as page:
         page.sendall(request)
         with contextlib.suppress(ConnectionResetError):
             while page.recv(65536):
                 pass
     simulator.process.wait_output("is an HTTP or TLS client")
+    assert not simulator.state()["armed"]
+    rows = [json.loads(line) for line in simulator.ctl("stats").splitlines()]
+    assert sum(row.get("http_refused", 0) for row in rows) == 1
+    with socket.create_connection(("127.0.0.1", simulator.port), timeout=harness.DEFAULT_TIMEOUT_S) as client:
+        client.sendall(order.pack(mavlink.MAVLink(None, 255, 190)))
+        harness.wait_for(lambda: simulator.state()["armed"], what="the same order, without the page")
 
 
 def telemetry_of(program, *options):

@@ -15,9 +15,10 @@ import harness
 pytestmark = pytest.mark.short
 
 PAGES = [harness.ROOT / "README.md", *sorted((harness.ROOT / "docs").rglob("*.md"))]
-COMMANDS = ("listen", "relay", "record", "replay", "route", "dialect", "check", "bench", "key", "shm", "sim")
+COMMANDS = ("listen", "relay", "record", "replay", "route", "dialect", "check", "bench", "key", "shm", "sim", "web",
+            "demo", "info", "top", "doctor")
 ASKING = ("ctl", "stat")  # these need a router that runs
-LIVE = ("listen", "relay", "record", "replay", "route", "sim")
+LIVE = ("listen", "relay", "record", "replay", "route", "sim", "web", "demo", "top", "doctor")
 
 
 def shell_lines(text):
@@ -50,8 +51,15 @@ def runnable(line):
         words = words[:words.index("<")]
     if words[0] in LIVE and "--for" not in words:
         words += ["--for", "300ms"]
+    if words[0] == "web":
+        words = [word.replace(":8088", ":0") for word in words]
+        words += [] if "--listen" in words else ["--listen", "127.0.0.1:0"]
     if "--for" in words:
         words[words.index("--for") + 1] = "300ms"
+    if words[0] in ("web", "top"):
+        words = [word.replace("shm://px4", "flight.tlog").replace("shm://telemetry", "flight.tlog") for word in words]
+    if words[0] == "demo" and "--ports" not in words:
+        words += ["--ports", "free"]
     if words[0] == "shm":
         words = [f"docs-{os.getpid()}" if word == "px4" else word for word in words]
     if words[0] in ("route", "sim"):
@@ -73,7 +81,8 @@ def copy_examples(folder):
 @pytest.fixture
 def folder(tmp_path, run):
     copy_examples(tmp_path / "examples")
-    shutil.copy(frames.FLIGHT, tmp_path / "flight.tlog")
+    for name in ("flight.tlog", "before.tlog", "after.tlog"):
+        shutil.copy(frames.FLIGHT, tmp_path / name)
     (tmp_path / "main.conf").write_text("[UdpEndpoint ground]\nMode = Normal\nAddress = 127.0.0.1\nPort = 14550\n")
     (tmp_path / "mine.xml").write_text('<?xml version="1.0"?><mavlink><messages><message id="42000" name="MY_STATE">'
                                        '<field type="uint16_t" name="count">n</field></message></messages></mavlink>')
@@ -96,9 +105,12 @@ def make_way(folder, words):
 
 
 def is_good(done, words):
-    """Status 4: nobody listens here where the example sends to, and that is all that was lost."""
+    """Status 4: nobody listens here where the example sends to, and that is all that was lost. Or `doctor` finds that
+    nobody sends."""
     refused = re.search("refused: no program listens there|there was no peer", done.stderr)
     alone = words[0] in ("relay", "replay") and refused
+    if words[0] == "doctor":
+        return done.status in (0, 4) and done.stdout
     return done.status == 0 or (done.status == 4 and alone and "dropped" not in done.stderr)
 
 
@@ -123,8 +135,8 @@ def simulator_name(spawn, run):
 @pytest.mark.parametrize("line", list(page_examples()))
 def test_example_of_a_page(run, folder, request, line):
     words = runnable(line)
-    if words[0] in ASKING and "sim" in words:
-        words = [request.getfixturevalue("simulator_name") if word == "sim" else word for word in words]
+    if words[0] in ASKING and {"sim", "demo-sim"} & set(words):
+        words = [request.getfixturevalue("simulator_name") if word in ("sim", "demo-sim") else word for word in words]
     elif words[0] in ASKING:
         words = [request.getfixturevalue("router_name") if word in ("router", "px4")
                  else word.replace("=tablet", "=other") for word in words]
@@ -137,7 +149,7 @@ def test_example_of_a_page(run, folder, request, line):
 @pytest.mark.parametrize("command", COMMANDS)
 def test_examples_of_help(run, folder, command):
     text = run(command, "--help").stdout
-    examples = re.findall(r"^\s*(?:Example: )?(mavloom %s [^-[].*)$" % command, text, re.MULTILINE)
+    examples = re.findall(r"^\s*(?:Example: )?(mavloom %s [^[].*)$" % command, text, re.MULTILINE)
 
     assert examples, text
     for line in examples:

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "mavloom/base/folded_product.hpp"
+
 namespace mavloom {
 namespace {
 
@@ -30,6 +32,21 @@ int fullest(const std::vector<std::uint64_t>& keys, Bucket&& bucket) {
     std::vector<int> counts(buckets);
     for (const std::uint64_t key : keys) ++counts[bucket(key)];
     return *std::ranges::max_element(counts);
+}
+
+// Products of Python's integers.
+TEST(FoldedProduct, IsTheSameWithAndWithoutWideIntegers) {
+    struct Case {
+        std::uint64_t a, b, folded;
+    };
+    constexpr std::uint64_t most = ~std::uint64_t{0};
+    for (const auto& [a, b, folded] :
+         {Case{0, 0, 0}, Case{1, 1, 1}, Case{most, most, most}, Case{1ull << 63, 2, 1}, Case{1ull << 32, 1ull << 32, 1},
+          Case{0x9e3779b97f4a7c15, 0xc2b2ae3d27d4eb4f, 0x8dd9092e2a448508},
+          Case{0xffffffff, 0xffffffff00000001, 0x100000001}}) {
+        EXPECT_EQ(folded_product(a, b), folded);
+        EXPECT_EQ(folded_product_of_halves(a, b), folded);
+    }
 }
 
 TEST(SecretHash, SpreadsKeysThatCollideUnderAKnownFactor) {

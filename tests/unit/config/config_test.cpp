@@ -51,7 +51,7 @@ TEST(Config, AnEmptyFileGivesTheDefaults) {
     EXPECT_EQ(config.log_level, LogLevel::info);
     EXPECT_EQ(config.service, ServiceConfig{});
     EXPECT_TRUE(config.endpoints.empty());
-    EXPECT_EQ(config.sections.size(), 4u);
+    EXPECT_EQ(config.sections.size(), 5u);
 }
 
 constexpr std::string_view whole_file = R"(
@@ -148,11 +148,11 @@ TEST(Config, KnowsWhereEachValueCameFrom) {
     EXPECT_EQ(setting(config, 0, "heartbeat").line, 10u);
     EXPECT_EQ(setting(config, 1, "full").origin, Origin::by_default);
     EXPECT_EQ(setting(config, 1, "full").value, "evict");
-    EXPECT_EQ(setting(config, 4, "idle").line, 13u);  // in the url
-    EXPECT_EQ(setting(config, 4, "max_rate").value, "*:50,ATTITUDE:10");
-    EXPECT_EQ(setting(config, 4, "mtu").value, "1280");
-    EXPECT_EQ(setting(config, 4, "mtu").origin, Origin::by_default);
-    EXPECT_EQ(setting(config, 6, "baud").line, 28u);
+    EXPECT_EQ(setting(config, 5, "idle").line, 13u);  // in the url
+    EXPECT_EQ(setting(config, 5, "max_rate").value, "*:50,ATTITUDE:10");
+    EXPECT_EQ(setting(config, 5, "mtu").value, "1280");
+    EXPECT_EQ(setting(config, 5, "mtu").origin, Origin::by_default);
+    EXPECT_EQ(setting(config, 7, "baud").line, 28u);
 }
 
 struct Bad {
@@ -175,7 +175,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Bad{"[router\n", "r.toml:1: "}, Bad{"a = 1\na = 2\n", "r.toml:2: "},
         Bad{"[ruoter]\n", "r.toml:1: there is no section 'ruoter', did you mean 'router'?"},
-        Bad{"\n[weather]\n", "r.toml:2: there is no section 'weather'; there are router, ring, record, log, endpoint"},
+        Bad{"\n[weather]\n",
+            "r.toml:2: there is no section 'weather'; there are router, ring, record, log, web, endpoint"},
         Bad{"router = 1\n", "r.toml:1: 'router' is a section; write [router]"},
         Bad{"[endpoint]\nurl = \"udpin://0.0.0.0:1\"\n", "r.toml:1: endpoints are written [[endpoint]]"},
         Bad{"[router]\ndedup = 1\n", "r.toml:2: [router] has no key 'dedup'"},
@@ -198,8 +199,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"[ring]\nfull = \"evikt\"\n", "did you mean 'evict'?"}, Bad{"[ring]\nname = \"a b\"\n", "not a ring name"},
         Bad{"[record]\nrotate_every = \"10ms\"\n", "the minimum is 1s"},
         Bad{"[record]\nrotate_bytes = 1\n", "out of range (4096 to"},
-        Bad{"\n[web]\nlisten = \"127.0.0.1:8088\"\n", "r.toml:2: this version has no web page"},
-        Bad{"[web]\n", "r.toml:1: this version has no web page"},
+        Bad{"\n[web]\nlisten = 8088\n", "r.toml:3: listen: '8088' is not HOST:PORT"},
+        Bad{"[web]\ntoken = \"x\"\n", "r.toml:2: [web] has no key 'token'"},
         Bad{"[[endpoint]]\nname = \"x\"\n", "r.toml:1: an endpoint needs url"},
         Bad{"[[endpoint]]\nurk = \"udpin://0.0.0.0:1\"\n",
             "r.toml:2: [[endpoint]] has no key 'urk', did you mean 'url'?"},
@@ -214,6 +215,9 @@ INSTANTIATE_TEST_SUITE_P(
             "in [router]"},
         Bad{"[[endpoint]]\nurl = \"udpin://0.0.0.0:14550\"\nbaud = 2\n", "does not take the option 'baud'"},
         Bad{"[[endpoint]]\nscheme = \"udpn\"\n", "did you mean 'udpin'?"},
+        // A recording where a configuration is expected.
+        Bad{std::string_view("\0\1flight", 8),
+            "r.toml:1: this is not a text file; if it is a recording, mavloom listen"},
         // Habits from other programs.
         Bad{"\n[General]\nTcpServerPort=5760\n",
             "r.toml:2: this is a configuration of mavlink-router; to convert it, type mavloom check --convert r.toml"},
@@ -261,12 +265,16 @@ TEST(Config, AVariableThatSetsNothingIsAnError) {
                 HasSubstr("environment: MAVLOOM_LOG_LEVEL: 'loud' is not one of debug, info, warning, error"));
 }
 
-TEST(Config, AVariableOfTheWebPageIsRefusedUntilThereIsOne) {
-    const auto refused = parse_config("", "r.toml", {{"MAVLOOM_WEB_LISTEN", "127.0.0.1:8088"}});
+TEST(Config, TheWebPageIsOffUnlessItHasAPlace) {
+    const auto absent = parse_config("[web]\n", "r.toml", {});
+    const auto given = parse_config(
+        "[web]\norigin = [\"https://a.example\", \"https://b.example\"]\nhost = \"drone\"\n", "r.toml",
+        {{"MAVLOOM_WEB_LISTEN", "0.0.0.0:8088"}});
+    ASSERT_TRUE(absent.has_value() && given.has_value());
 
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_THAT(refused.error().text, HasSubstr("this version has no web page"));
-    EXPECT_THAT(refused.error().text, HasSubstr("MAVLOOM_WEB_LISTEN"));
+    EXPECT_EQ(absent->web, WebConfig{});
+    EXPECT_EQ(given->web,
+              (WebConfig{endpoint::HostPort{"0.0.0.0", 8088}, {"https://a.example", "https://b.example"}, {"drone"}}));
 }
 
 TEST(Config, AnOptionOverridesTheEnvironmentAndTheFile) {

@@ -11,9 +11,11 @@ namespace {
 
 TEST(MetricsText, EachMetricHasItsHelpAndTypeBeforeItsSamples) {
     MetricsText sut;
-    sut.add_total("link", "crc_error", MetricsText::label("link", "A"), 5);
-    sut.add_total("link", "lost", MetricsText::label("link", "A"), 7);
-    sut.add_total("link", "crc_error", MetricsText::label("link", "B"), 6);
+    constexpr std::string_view crc_error_help = "frames with a wrong checksum";
+    sut.add("link", {"crc_error", 5, crc_error_help}, MetricsText::label("link", "A"));
+    sut.add("link", {"lost", 7, "frames that the link lost, by gaps in the sequence numbers"},
+            MetricsText::label("link", "A"));
+    sut.add("link", {"crc_error", 6, crc_error_help}, MetricsText::label("link", "B"));
 
     EXPECT_EQ(sut.text(),
               fmt::format("# HELP mavloom_build_info The version of Mavloom.\n"

@@ -3,8 +3,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <array>
 #include <chrono>
+#include <climits>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -65,6 +68,8 @@ INSTANTIATE_TEST_SUITE_P(
                     GoodAddress{"udpmcast://[ff02::1]:14550", Scheme::udpmcast, "ff02::1", 14550},
                     GoodAddress{"tcpin://0.0.0.0:5760", Scheme::tcpin, "0.0.0.0", 5760},
                     GoodAddress{"tcpout://10.0.0.1:5760", Scheme::tcpout, "10.0.0.1", 5760},
+                    GoodAddress{"wsin://0.0.0.0:5761", Scheme::wsin, "0.0.0.0", 5761},
+                    GoodAddress{"wsout://[::1]:80/mavlink?idle=5", Scheme::wsout, "::1", 80},
                     // pymavlink's spellings; its `tcp:` connects
                     GoodAddress{"udpin:0.0.0.0:14550", Scheme::udpin, "0.0.0.0", 14550},
                     GoodAddress{"udpout:127.0.0.1:14550", Scheme::udpout, "127.0.0.1", 14550},
@@ -97,7 +102,9 @@ INSTANTIATE_TEST_SUITE_P(
         GoodPath{"/tmp/vehicle/tty,115200", Scheme::serial, "/tmp/vehicle/tty"},
         GoodPath{"/tmp/a,b.tlog", Scheme::tlog, "/tmp/a,b.tlog"}, GoodPath{"FOO.TLOG", Scheme::tlog, "FOO.TLOG"},
         GoodPath{"x.tlog.12", Scheme::tlog, "x.tlog.12"}, GoodPath{"/dev/ttyACM0", Scheme::serial, "/dev/ttyACM0"},
-        GoodPath{"shm://main", Scheme::shm, "main"}, GoodPath{"tlog://flight.tlog", Scheme::tlog, "flight.tlog"},
+        GoodPath{"wsin://0.0.0.0:5761", Scheme::wsin, ""},
+        GoodPath{"wsout://[::1]:80/a/b?idle=5", Scheme::wsout, "/a/b"}, GoodPath{"shm://main", Scheme::shm, "main"},
+        GoodPath{"tlog://flight.tlog", Scheme::tlog, "flight.tlog"},
         GoodPath{"tlog:///var/log/flight.tlog", Scheme::tlog, "/var/log/flight.tlog"},
         GoodPath{"tlog://logs/no%20ending%3F", Scheme::tlog, "logs/no ending?"},
         GoodPath{"flight.tlog", Scheme::tlog, "flight.tlog"}, GoodPath{"./a/b.tlog", Scheme::tlog, "./a/b.tlog"},
@@ -150,7 +157,14 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"udpserver://0.0.0.0:14550", "is written udpin://0.0.0.0:14550"},
         Bad{"udpclient:10.0.0.1:14550", "is written udpout://10.0.0.1:14550"},
         Bad{"udpinn://127.0.0.1:1", "did you mean 'udpin'?"}, Bad{"UDPIN://127.0.0.1:1", "did you mean 'udpin'?"},
-        Bad{"http://localhost:80", "there are udpin, udpout, udpbcast, udpmcast, tcpin, tcpout, serial, shm, tlog"},
+        Bad{"http://localhost:80",
+            "there are udpin, udpout, udpbcast, udpmcast, tcpin, tcpout, wsin, wsout, serial, shm, tlog"},
+        Bad{"ws://10.0.0.1:5761/mavlink",
+            "type wsout://10.0.0.1:5761/mavlink to connect, wsin://10.0.0.1:5761/mavlink to listen"},
+        Bad{"wss://gcs.example.org:443", "needs TLS, which Mavloom leaves to a proxy"},
+        Bad{"wsin://0.0.0.0:5761/a b", "has characters that a path here cannot have"},
+        Bad{"wsin://0.0.0.0:5761?origin=app.example.com", "is not the origin of a web page"},
+        Bad{"tcpin://0.0.0.0:5761?origin=*", "tcpin does not take the option 'origin' (it belongs to wsin)"},
         Bad{"udp:14550", "type udpin://0.0.0.0:14550 to listen, udpout://HOST:14550 to send"},
         Bad{"00000012.BIN", "ArduPilot's own log (DataFlash), not a recording of MAVLink; mavlogdump.py"},
         Bad{"logs/flight.ulg", "PX4's own log (ULog), not a recording of MAVLink; ulog_info"},
@@ -212,14 +226,17 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"tcpin://127.0.0.1:1?unknown_component=drop", "'unknown_component' is a setting of the router"},
         Bad{"udpout://127.0.0.1:1?unknown_target=flood", "'unknown_target' is a setting of the router"},
         Bad{"tcpout://127.0.0.1:1?route_timeout=9", "'route_timeout' is a setting of the router"},
-        Bad{"udpout://127.0.0.1:1?heartbeat=255/191", "is heartbeat = \"SYS/COMP\" in [router]"},
+        Bad{"udpout://127.0.0.1:1?heartbeat=255/191",
+            "type --heartbeat 255/191, or heartbeat = \"255/191\" in [router]"},
         Bad{"udpout://127.0.0.1:1?heartbeat=1", "neither true nor false"},
         Bad{"udpout://127.0.0.1:1?heartbeat=true&tap=true", "heartbeat= and tap=true exclude each other"},
         Bad{"tcpin://127.0.0.1:1?tap=true&heartbeat=false", "heartbeat= and tap=true exclude each other"},
         Bad{"serial:///dev/ttyACM0?request_streams=4", "'request_streams' is a setting of the router"},
         Bad{"udpout://127.0.0.1:1?metrics=127.0.0.1:9090", "--metrics, or metrics in [router]"},
         Bad{"serial:///dev/ttyACM0?baudrate=57600", "did you mean 'baud'?"},
+        Bad{"udpin://127.0.0.1:1?baudrate=57600", "'baud' belongs to serial, not to udpin"},
         Bad{"udpin://127.0.0.1:1?group_mode=best", "group_mode= has no effect without group=NAME"},
+        Bad{"udpin://127.0.0.1:1?sign_all=true", "sign_all= has no effect without sign=KEYFILE"},
         Bad{"udpin://127.0.0.1:1?un=drop", "udpin takes name, group"},
         Bad{"udpin://127.0.0.1:1?name=a&name=b", "option 'name' is given twice"},
         Bad{"udpin://127.0.0.1:1?baud=57600", "udpin does not take the option 'baud' (it belongs to serial)"},
@@ -440,7 +457,7 @@ TEST(EndpointOptionNames, OfARingAreThoseOfTheGuideWithTheirDefaults) {
 }
 
 TEST(EndpointOptionNames, HoldWhatTheDesignLists) {
-    EXPECT_THAT(endpoint_option_names(), testing::SizeIs(37));
+    EXPECT_THAT(endpoint_option_names(), testing::SizeIs(39));
     EXPECT_THAT(endpoint_option_names(),
                 testing::IsSupersetOf({"name", "mtu", "max_rate", "private", "rotate_every", "bind", "low_latency"}));
 }
@@ -456,6 +473,15 @@ TEST_P(Loops, AreRefusedInEitherOrder) {
     const auto& [a, b, is_loop] = GetParam();
     EXPECT_EQ(!check_not_called(parsed(a), parsed(b)), is_loop) << a << " " << b;
     EXPECT_EQ(!check_not_called(parsed(b), parsed(a)), is_loop) << b << " " << a;
+}
+
+// A name of this machine may stand for any of its addresses: only a socket on all of them surely hears it.
+TEST(OwnName, IsALoopOnlyWithAPortOnAllAddresses) {
+    std::array<char, HOST_NAME_MAX + 1> name{};
+    ASSERT_EQ(::gethostname(name.data(), name.size() - 1), 0);
+    const auto call = parsed("udpout://" + std::string(name.data()) + ":14540");
+    EXPECT_FALSE(check_not_called(parsed("udpin://0.0.0.0:14540"), call));
+    EXPECT_TRUE(check_not_called(parsed("udpin://127.0.0.1:14540"), call));
 }
 
 INSTANTIATE_TEST_SUITE_P(Endpoints, Loops,

@@ -61,8 +61,9 @@ TEST_F(ChannelTest, ASlowReaderMissesTheOldestAndCostsTheOthersNothing) {
 }
 
 TEST_F(ChannelTest, AFilterSelectsBySystemComponentAndId) {
-    ChannelReader second_system(channel, {.system = 2}), heartbeats(channel, {.ids = std::vector{MessageId{0}}}),
-        nothing(channel, {.ids = std::vector<MessageId>{}}), other_component(channel, {.component = 9});
+    ChannelReader second_system(channel, make_filter({.systems = {2}})),
+        heartbeats(channel, make_filter({.messages = {"HEARTBEAT"}})), nothing(channel, dialect::Filter::none()),
+        other_component(channel, make_filter({.components = {9}}));
     receive(*channel, numbered(1, 1));
     receive(*channel, numbered(2, 2));
     receive(*channel, frame_of(0, {}, {SystemId{2}, ComponentId{9}}));
@@ -102,7 +103,7 @@ TEST_F(ChannelTest, WhatAVerifyingEndpointLetsPassIsGood) {
 // So that the loop thread waits for the mutex only shortly, whatever the filter leaves out.
 TEST_F(ChannelTest, OneTakeLooksAtALimitedNumberOfFramesAndAsksForAnother) {
     channel = make_channel(1 << 20);
-    ChannelReader reader(channel, {.system = 2});
+    ChannelReader reader(channel, make_filter({.systems = {2}}));
     receive_numbers(*channel, 1, many);
     receive(*channel, numbered(many + 1, 2));
     const int fd = *reader.event_fd();
@@ -119,7 +120,7 @@ TEST_F(ChannelTest, OneTakeLooksAtALimitedNumberOfFramesAndAsksForAnother) {
 // ---- waiting
 
 TEST_F(ChannelTest, TheDescriptorReportsOncePerPollThatFoundNothing) {
-    ChannelReader reader(channel, {.system = 2});
+    ChannelReader reader(channel, make_filter({.systems = {2}}));
     const int fd = *reader.event_fd();
     EXPECT_EQ(read_count(fd), 1u);  // from the start, so that the first poll is made
     receive_numbers(*channel, 1, 1);
@@ -144,8 +145,8 @@ TEST_F(ChannelTest, TheDescriptorReportsOncePerPollThatFoundNothing) {
 }
 
 TEST_F(ChannelTest, ClosingTheChannelWakesEverybodyAndKeepsTheRest) {
-    auto reader = std::make_unique<ChannelReader>(channel, Filter{}),
-         other = std::make_unique<ChannelReader>(channel, Filter{});
+    auto reader = std::make_unique<ChannelReader>(channel, dialect::Filter{}),
+         other = std::make_unique<ChannelReader>(channel, dialect::Filter{});
     const int fd = *other->event_fd();
     read_count(fd);
     std::atomic<int> ended{0};
@@ -243,7 +244,7 @@ TEST_F(ChannelTest, ReadersOfAllKindsShareAChannelThatReceives) {
     });
     std::thread coming([&] {
         while (!done) {
-            ChannelReader reader(channel, {.system = 1});
+            ChannelReader reader(channel, make_filter({.systems = {1}}));
             EXPECT_TRUE(std::ranges::is_sorted(numbers_in(reader)));
         }
     });
@@ -292,7 +293,7 @@ struct HeldChannelTest : ChannelTest {
     }
     std::uint32_t last = 0;
     int calls = 0;
-    std::unique_ptr<ChannelReader> reader = std::make_unique<ChannelReader>(channel, Filter{});
+    std::unique_ptr<ChannelReader> reader = std::make_unique<ChannelReader>(channel, dialect::Filter{});
     HeldChannelTest() {
         channel->hold_for(reader.get(), [this] { ++calls; });
     }

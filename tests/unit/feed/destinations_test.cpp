@@ -16,6 +16,8 @@ using std::chrono::seconds;
 
 constexpr auto longest_flush = seconds(60);
 
+const auto no_notice = [](std::string_view text) { ADD_FAILURE() << text; };
+
 // A port of this machine on which nobody listens.
 std::uint16_t closed_port() { return PlainSocket::udp().port(); }
 
@@ -32,7 +34,7 @@ TEST(Destinations, EachGetsEveryFrameOnceAndInOrder) {
         EXPECT_TRUE(sut.send(view(frame), at_ms(1000 + i)));
     }
     link::flush(*node.links, node.recorder, longest_flush);
-    ASSERT_TRUE(sut.close());
+    ASSERT_TRUE(sut.close(no_notice));
 
     Bytes heard_first, heard_second;
     read_into(heard_first, first);
@@ -117,7 +119,7 @@ TEST(Destinations, AFileThatCannotBeWrittenLeavesTheOthers) {
     }
     ASSERT_TRUE(sut.failed());
     link::flush(*node.links, node.recorder, longest_flush);
-    const auto closed = sut.close();
+    const auto closed = sut.close(no_notice);
     ASSERT_FALSE(closed);
     EXPECT_EQ(closed.error().code, SetupCode::no_space);
     EXPECT_NE(closed.error().text.find("/dev/full"), std::string::npos);
@@ -128,19 +130,33 @@ TEST(Destinations, AFileThatCannotBeWrittenLeavesTheOthers) {
     EXPECT_EQ(sut.files()[1].lost_records(), 0u);
 }
 
-TEST(Destinations, WhatAFileBuffersWhenItGoesIsInTheNextOne) {
+// A recording that was deleted while a frame was still buffered.
+struct DeletedRecording : ::testing::Test {
+    DeletedRecording() {
+        EXPECT_TRUE(sut.send(view(frame), at_ms(1000)));
+        std::filesystem::remove(path);
+    }
+    ~DeletedRecording() override {
+        EXPECT_EQ(notices, path + " was removed or replaced; a new file begins");
+        EXPECT_EQ(test::content_of(path), record(at_ms(1000), frame));
+    }
+    void note(std::string_view text) { notices += text; }
+
     Node node;
     const test::TempDir dir;
-    auto sut = open({"tlog://" + (dir / "x.tlog").string()}, *node.links);
+    const std::string path = (dir / "x.tlog").string();
+    decltype(open({}, *node.links)) sut = open({"tlog://" + path}, *node.links);
     const Bytes frame = attitude(1);
-    ASSERT_TRUE(sut.send(view(frame), at_ms(1000)));
-    std::filesystem::remove(dir / "x.tlog");
-
     std::string notices;
-    sut.look_after_files(MonoTime{} + seconds(1), [&](std::string_view text) { notices += text; });
-    EXPECT_EQ(notices, (dir / "x.tlog").string() + " was removed or replaced; a new file begins");
-    ASSERT_TRUE(sut.close());
-    EXPECT_EQ(test::content_of(dir / "x.tlog"), record(at_ms(1000), frame));
+};
+
+TEST_F(DeletedRecording, IsNoticedWhileOtherFramesMayCome) {
+    sut.maintain_files(MonoTime{} + seconds(1), [&](std::string_view text) { note(text); });
+    ASSERT_TRUE(sut.close(no_notice));
+}
+
+TEST_F(DeletedRecording, IsNoticedAtTheEnd) {
+    ASSERT_TRUE(sut.close([&](std::string_view text) { note(text); }));
 }
 
 TEST(Destinations, TheRoomIsThatOfTheSmallestQueue) {

@@ -16,6 +16,7 @@
 #include "mavloom/dialect/dialect.hpp"
 #include "mavloom/feed/channel.hpp"
 #include "support/eventually.hpp"
+#include "support/filter.hpp"
 #include "unit/link/fixture.hpp"
 
 namespace mavloom::feed::testing {
@@ -29,6 +30,7 @@ using link::testing::view;
 inline constexpr std::size_t smallest_buffer = 64 * 1024;
 using test::eventually;
 using test::long_enough;
+using test::make_filter;
 
 // A frame of the default dialect. A short payload is filled with zeros.
 inline Bytes frame_of(std::uint32_t id, Bytes payload = {}, Source source = {SystemId{1}, ComponentId{1}}) {

@@ -27,7 +27,7 @@ public:
     explicit Opened(const std::string& url, std::size_t buffer_bytes = 1 << 22)
         : hub(Hub::get().value()),
           channel(make_channel(buffer_bytes)),
-          reader(std::make_unique<ChannelReader>(channel, Filter{})),
+          reader(std::make_unique<ChannelReader>(channel, dialect::Filter{})),
           opened(hub->open(endpoint_of(url), channel, *reader)) {
         EXPECT_TRUE(opened) << url << ": " << (opened ? "" : opened.error().text);
     }

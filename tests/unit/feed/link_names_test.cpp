@@ -16,15 +16,15 @@ TEST(LinkNames, ALinkThatIsGoneKeepsItsNameUntilManyOthersAreGone) {
     names.add(LinkId{1}, "first");
     names.gone(LinkId{1});
     EXPECT_EQ(names.find(LinkId{1}), "first");
-    for (std::uint32_t link = 2; link <= LinkNames::most_gone; ++link) {
+    for (std::uint32_t link = 2; link <= LinkNames::max_gone; ++link) {
         names.add(LinkId{link}, "later");
         names.gone(LinkId{link});
     }
     EXPECT_EQ(names.find(LinkId{1}), "first");
-    names.add(LinkId{LinkNames::most_gone + 1}, "last");
-    names.gone(LinkId{LinkNames::most_gone + 1});
+    names.add(LinkId{LinkNames::max_gone + 1}, "last");
+    names.gone(LinkId{LinkNames::max_gone + 1});
     EXPECT_EQ(names.find(LinkId{1}), "");
-    EXPECT_EQ(names.find(LinkId{LinkNames::most_gone + 1}), "last");
+    EXPECT_EQ(names.find(LinkId{LinkNames::max_gone + 1}), "last");
 }
 
 TEST(LinkNames, ALinkThatIsBackIsNotForgotten) {
@@ -32,7 +32,7 @@ TEST(LinkNames, ALinkThatIsBackIsNotForgotten) {
     names.add(LinkId{1}, "before");
     names.gone(LinkId{1});
     names.add(LinkId{1}, "again");
-    for (std::uint32_t link = 2; link <= LinkNames::most_gone + 10; ++link) {
+    for (std::uint32_t link = 2; link <= LinkNames::max_gone + 10; ++link) {
         names.add(LinkId{link}, "other");
         names.gone(LinkId{link});
     }

@@ -32,7 +32,7 @@ struct NewestFramesTest : ::testing::Test {
         newest.put(NewestFrames::key_of(frame, dialect::default_dialect().find(frame.id())), {}, frame, now);
     }
     // The bytes of what is found; empty for nothing.
-    Bytes find(const Filter& filter = {}, const std::optional<Instance>& instance = {},
+    Bytes find(const dialect::Filter& filter = {}, const std::optional<message::Instance>& instance = {},
                MonoTime not_before = MonoTime::min()) const {
         const auto* found = newest.find(filter, instance, not_before);
         return found == nullptr ? Bytes() : found->bytes;
@@ -45,11 +45,11 @@ TEST_F(NewestFramesTest, EachSourceAndIdHasItsNewest) {
     put(numbered(2, 2));
     put(numbered(3, 1));
     EXPECT_EQ(find(), numbered(3, 1));
-    EXPECT_EQ(find({.system = 2}), numbered(2, 2));
-    EXPECT_EQ(find({.ids = std::vector{MessageId{heartbeat_id}}}), Bytes());
+    EXPECT_EQ(find(make_filter({.systems = {2}})), numbered(2, 2));
+    EXPECT_EQ(find(make_filter({.messages = {"HEARTBEAT"}})), Bytes());
     put(frame_of(heartbeat_id));
     EXPECT_EQ(find(), frame_of(heartbeat_id));
-    EXPECT_EQ(find({.ids = std::vector{MessageId{attitude_id}}}), numbered(3, 1));
+    EXPECT_EQ(find(make_filter({.messages = {"ATTITUDE"}})), numbered(3, 1));
     EXPECT_TRUE(newest.has(MessageId{heartbeat_id}));
     EXPECT_FALSE(newest.has(MessageId{1}));
 }
@@ -60,11 +60,11 @@ TEST_F(NewestFramesTest, SensorsOfOneMessageAreDistinguishedByNumberOrText) {
     put(named_float("left"));
     put(named_float("right"));
     put(named_float("left", 2));
-    EXPECT_EQ(find({}, Instance(std::int64_t{3})), battery(3));
-    EXPECT_EQ(find({}, Instance(std::int64_t{7})), battery(7));
-    EXPECT_EQ(find({}, Instance(std::int64_t{8})), Bytes());
-    EXPECT_EQ(find({}, Instance(std::string("right"))), named_float("right"));
-    EXPECT_EQ(find({}, Instance(std::string("left"))), named_float("left", 2));
+    EXPECT_EQ(find({}, message::Instance(std::int64_t{3})), battery(3));
+    EXPECT_EQ(find({}, message::Instance(std::int64_t{7})), battery(7));
+    EXPECT_EQ(find({}, message::Instance(std::int64_t{8})), Bytes());
+    EXPECT_EQ(find({}, message::Instance(std::string("right"))), named_float("right"));
+    EXPECT_EQ(find({}, message::Instance(std::string("left"))), named_float("left", 2));
 }
 
 TEST_F(NewestFramesTest, WhatIsTooOldIsNotFound) {
@@ -82,7 +82,7 @@ TEST_F(NewestFramesTest, ForgedSourcesFillTheTableAndNoMore) {
                 {SystemId{static_cast<std::uint8_t>(system)}, ComponentId{static_cast<std::uint8_t>(component)}}));
     ASSERT_GT(sources, NewestFrames::capacity);
     EXPECT_EQ(newest.not_kept(), sources - NewestFrames::capacity);
-    EXPECT_EQ(find({.system = 255, .component = 65}), Bytes());
+    EXPECT_EQ(find(make_filter({.systems = {255}, .components = {65}})), Bytes());
     put(frame_of(heartbeat_id, {9}));  // a source that has its place keeps it
     EXPECT_EQ(find(), frame_of(heartbeat_id, {9}));
 }

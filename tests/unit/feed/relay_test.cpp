@@ -275,6 +275,21 @@ TEST(Relay, AFileThatCannotBeWrittenEndsItAfterTheOthersGotTheirs) {
     EXPECT_EQ(heard.size(), bench.destinations->deliveries().at(0).bytes);
 }
 
+// relay alone did not report it.
+TEST(Relay, AFileThatIsGoneAtTheEndIsReported) {
+    Bench bench;
+    const test::TempDir dir;
+    bench.add_source("tlog://" + flight.string());
+    bench.send_to({"tlog://" + (dir / "copy.tlog").string()});
+    bench.handler.before_turn = [&] {
+        return bench.destinations->sent() != 0 && std::filesystem::remove(dir / "copy.tlog");
+    };
+    expect_complete(bench.run());
+
+    const std::vector expected{(dir / "copy.tlog").string() + " was removed or replaced before it was complete"};
+    EXPECT_EQ(bench.handler.notices, expected);
+}
+
 TEST(Relay, AnEmptyRecordingIsReported) {
     Bench bench;
     const test::TempDir dir;

@@ -29,7 +29,7 @@ TEST(SourcesDrain, EndsAlthoughFramesKeepComing) {
         return Room(0);
     });
 
-    sources->links().refresh_kernel_drops();
+    sources->links().refresh_counters();
     const auto dropped = sources->links().endpoints().at(0).counters->kernel_drop.value();
     const auto heard = std::ranges::count_if(recorder.frames, [&](const auto& f) { return f.bytes[5] == early; });
     EXPECT_GE(static_cast<std::uint64_t>(heard) + dropped, arrived);

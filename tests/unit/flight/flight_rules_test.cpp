@@ -609,6 +609,34 @@ TEST(Failsafe, TheBatteryLastsAsLongAsTheOptionsState) {
     EXPECT_LT(rig.flight.battery().remaining(), 0.07);
 }
 
+TEST(Failsafe, AFailedBatteryRestsAtItsLevelUntilItIsRestored) {
+    VehicleOptions options = ready;
+    options.battery.start_percent = 80;
+    FlightRig rig(options);
+    ASSERT_TRUE(rig.flight.set_battery(0.04).is_accepted());
+    rig.run(5);
+    EXPECT_NEAR(rig.flight.battery().remaining(), 0.04, 0.001);
+    ASSERT_TRUE(rig.flight.restore_battery().is_accepted());
+    rig.run(5);
+    EXPECT_NEAR(rig.flight.battery().remaining(), 0.8, 0.001);
+}
+
+TEST(Failsafe, AfterABootTheBatteryIsAsAtTheStart) {
+    VehicleOptions options = ready;
+    options.battery.start_percent = 80;
+    FlightRig rig(options);
+    rig.take_off(10);
+    ASSERT_GT(rig.flight.battery().seconds_left(), 0);
+    ASSERT_TRUE(rig.flight.set_battery(0.04).is_accepted());
+    rig.flight.reboot();
+    const Battery& battery = rig.flight.battery();
+    EXPECT_EQ(battery.used_joule(), 0);
+    EXPECT_EQ(battery.seconds_left(), 0);
+    EXPECT_NEAR(battery.remaining(), 0.8, 1e-9);
+    rig.run(5);
+    EXPECT_NEAR(battery.remaining(), 0.8, 0.001) << "also after a failure";
+}
+
 TEST(Failsafe, AnEmptyBatteryDropsTheVehicle) {
     FlightRig rig(ready);
     rig.set("COM_LOW_BAT_ACT", 0);

@@ -311,12 +311,12 @@ TEST(Flight, ChangesAltitudeAndSpeed) {
 TEST(Flight, LooksAtARegionOfInterest) {
     FlightRig rig(ready);
     rig.take_off(10);
-    ASSERT_TRUE(rig.flight.look_at(rig.point(-50, -50, 0)).is_accepted());
+    ASSERT_TRUE(rig.flight.set_roi(rig.point(-50, -50, 0)).is_accepted());
     rig.run(6);
     EXPECT_NEAR(to_degrees(rig.flight.estimate().heading), 225, 2);
-    ASSERT_TRUE(rig.flight.look_at(std::nullopt).is_accepted());
+    ASSERT_TRUE(rig.flight.set_roi(std::nullopt).is_accepted());
     EXPECT_FALSE(rig.flight.region_of_interest());
-    EXPECT_FALSE(rig.flight.look_at(GeoPoint{nan, 3, 0}).is_accepted());
+    EXPECT_FALSE(rig.flight.set_roi(GeoPoint{nan, 3, 0}).is_accepted());
 }
 
 class OrbitTest : public ::testing::TestWithParam<double> {};

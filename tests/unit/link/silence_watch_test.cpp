@@ -3,7 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace mavloom::link {
 namespace {
@@ -20,129 +23,78 @@ constexpr MonoTime start{1000s};
 
 endpoint::Endpoint parsed(std::string_view url) { return *endpoint::parse_endpoint(url); }
 
-struct Silence : ::testing::Test {
-    // How many reports the looks of so many seconds bring.
-    std::size_t reports(Nanoseconds from, int seconds) {
-        std::size_t count = 0;
-        for (int i = 0; i < seconds; ++i)
-            count += sut.look([this](LinkId id) { return id == first    ? &counters
-                                                         : id == second ? &others
-                                                                        : nullptr; },
-                              start + from + i * 1s)
-                         .size();
-        return count;
-    }
-    void open(std::string_view url) { sut.add(px4, parsed(url), start); }
-    void connect(Nanoseconds at = 0s) { sut.on_link_up(first, px4, start + at); }
-
+// An endpoint with up to two links. The second one, if there is one, is newer.
+struct Watch {
     LinkCounters counters, others;
     SilenceWatch sut;
+    MonoTime now = start;
 };
 
-TEST_F(Silence, OfAnEndpointThatSendsNothingIsReportedOnceAndAgainAfterItSends) {
-    open("udpout://127.0.0.1:1");
-    connect();
-    EXPECT_EQ(reports(0s, 5), 0u);
-    EXPECT_EQ(reports(5s, 55), 1u);
-    counters.frames_out.add();
+void connect(Watch& w) { w.sut.on_link_up(first, px4, w.now); }
+void connect_another(Watch& w) { w.sut.on_link_up(second, px4, w.now); }
+void disconnect(Watch& w) { w.sut.on_link_down(first, &w.counters); }
+void remove(Watch& w) { w.sut.remove(px4); }
+void send(Watch& w) { w.counters.frames_out.add(); }
+void be_refused(Watch& w) { w.counters.refused.add(); }
+void hear(Watch& w) { w.counters.frames_in.add(); }
 
-    EXPECT_EQ(reports(60s, 5), 0u);
-    EXPECT_EQ(reports(65s, 1), 1u);
-    EXPECT_EQ(reports(66s, 60), 0u);
-    connect(200s);
-    EXPECT_EQ(reports(200s, 60), 0u);
+struct Case {
+    std::string_view what, url;
+    std::vector<std::pair<int, void (*)(Watch&)>> events;  // at these seconds
+    std::vector<int> reports;
+};
+
+// Looks once a second, and returns the seconds of the reports.
+std::vector<int> reports_of(const Case& c) {
+    constexpr int seconds = 300;
+    Watch w;
+    std::vector<int> reports;
+    w.sut.add(px4, parsed(c.url), w.now);
+    const auto counters_of = [&w](LinkId id) { return id == first ? &w.counters : id == second ? &w.others : nullptr; };
+    for (int passed = 0; passed < seconds; ++passed, w.now += 1s) {
+        for (const auto& [at, happens] : c.events)
+            if (at == passed) happens(w);
+        for (const auto& silent : w.sut.poll(counters_of, w.now)) {
+            EXPECT_EQ(silent.endpoint, px4);
+            reports.push_back(passed);
+        }
+    }
+    return reports;
 }
 
-TEST_F(Silence, OfAnEndpointThatSendsIsReportedOnce) {
-    open("serial:///dev/ttyS0");
-    connect();
-    counters.frames_out.add();
-
-    EXPECT_EQ(reports(0s, 5), 0u);
-    EXPECT_EQ(reports(5s, 60), 1u);
-}
-
-TEST_F(Silence, OfAPortIsReportedOnceWithoutAnyPeer) {
-    open("udpin://127.0.0.1:1");
-
-    EXPECT_EQ(reports(0s, 5), 0u);
-    EXPECT_EQ(reports(5s, 60), 1u);
-}
-
-TEST_F(Silence, BeginsWithTheConnection) {
-    open("tcpout://127.0.0.1:1");
-    EXPECT_EQ(reports(0s, 60), 0u) << "the link itself reports why it has no connection";
-    connect(60s);
-
-    EXPECT_EQ(reports(60s, 5), 0u);
-    EXPECT_EQ(reports(65s, 60), 1u);
-}
-
-TEST_F(Silence, OfALinkThatWasHeardOnceIsNone) {
-    open("udpout://127.0.0.1:1");
-    connect();
-    counters.frames_out.add();
-    EXPECT_EQ(reports(0s, 3), 0u);
-    counters.frames_in.add();
-
-    EXPECT_EQ(reports(3s, 60), 0u);
-}
-
-TEST_F(Silence, EndsWithItsLinkAndItsEndpoint) {
-    open("tcpout://127.0.0.1:1");
-    connect();
-    EXPECT_EQ(reports(0s, 3), 0u);
-    sut.on_link_down(first, &counters);
-    EXPECT_EQ(reports(3s, 60), 0u);
-    connect(70s);
-    sut.remove(px4);
-
-    EXPECT_EQ(reports(70s, 60), 0u);
-}
-
-TEST_F(Silence, OfAPortIsNoneIfAnyClientWasHeard) {
-    open("tcpin://127.0.0.1:1");
-    connect();
-    sut.on_link_up(second, px4, start);
-    counters.frames_in.add();
-
-    EXPECT_EQ(reports(0s, 60), 0u) << "only the newest client was looked at";
-}
-
-TEST_F(Silence, OfAPortIsNoneIfAClientThatWasHeardHasLeft) {
-    open("tcpin://127.0.0.1:1");
-    connect();
-    sut.on_link_up(second, px4, start);
-    counters.frames_in.add();
-    sut.on_link_down(first, &counters);
-
-    EXPECT_EQ(reports(0s, 60), 0u) << "it came and went between two looks";
-}
-
-TEST_F(Silence, OfAPortIsReportedIfNoClientThatLeftWasHeard) {
-    open("tcpin://127.0.0.1:1");
-    connect();
-    sut.on_link_down(first, &counters);
-
-    EXPECT_EQ(reports(0s, 60), 1u);
-}
-
-TEST_F(Silence, StartsOverWhileFramesAreRefused) {
-    open("udpout://127.0.0.1:1");
-    connect();
-    counters.frames_out.add();
-    EXPECT_EQ(reports(0s, 4), 0u);
-    counters.refused.add();
-
-    EXPECT_EQ(reports(4s, 5), 0u) << "the link itself reports that no program listens";
-    EXPECT_EQ(reports(9s, 60), 1u);
-}
-
-TEST_F(Silence, OfRecordingsAndRingsIsNotWatched) {
-    open("tlog:///tmp/x.tlog");
-    open("shm://px4");
-
-    EXPECT_EQ(reports(0s, 60), 0u);
+TEST(Silence, IsReportedOnceAfterFiveSeconds) {
+    const std::array cases{
+        Case{"a port without any peer", "udpin://127.0.0.1:1", {}, {5}},
+        Case{"a link that sends", "serial:///dev/ttyS0", {{0, connect}, {0, send}}, {5}},
+        Case{"one that sends nothing, and again after it sends",
+             "udpout://127.0.0.1:1",
+             {{0, connect}, {60, send}, {200, connect}},
+             {5, 65}},
+        Case{"without a connection, the link itself reports why", "tcpout://127.0.0.1:1", {{60, connect}}, {65}},
+        Case{"no link, no silence", "tcpout://127.0.0.1:1", {{0, connect}, {3, disconnect}}, {}},
+        Case{"removed", "tcpout://127.0.0.1:1", {{0, connect}, {3, remove}}, {}},
+        Case{"heard in time", "udpout://127.0.0.1:1", {{0, connect}, {0, send}, {3, hear}}, {}},
+        Case{"a client that is not the newest was heard",
+             "tcpin://127.0.0.1:1",
+             {{0, connect}, {0, connect_another}, {0, hear}},
+             {}},
+        Case{"a client was heard that came and went between two looks",
+             "tcpin://127.0.0.1:1",
+             {{0, connect}, {0, connect_another}, {0, hear}, {0, disconnect}},
+             {}},
+        Case{"no client that left was heard", "tcpin://127.0.0.1:1", {{0, connect}, {0, disconnect}}, {5}},
+        Case{"while frames are refused, the link itself reports that no program listens",
+             "udpout://127.0.0.1:1",
+             {{0, connect}, {0, send}, {4, be_refused}},
+             {9}},
+        Case{"refused from the first frame on",
+             "udpout://127.0.0.1:1",
+             {{0, connect}, {0, be_refused}, {3, be_refused}, {6, be_refused}},
+             {11}},
+        Case{"a recording", "tlog:///tmp/x.tlog", {}, {}},
+        Case{"a ring", "shm://px4", {}, {}},
+    };
+    for (const auto& c : cases) EXPECT_EQ(reports_of(c), c.reports) << c.what;
 }
 
 struct Heard {
@@ -177,7 +129,10 @@ TEST(SilenceText, StatesWhatToLookAt) {
 TEST(SilenceText, NamesTheEndpointThatNeverSends) {
     for (const auto* url : {"udpout://10.0.0.1:14555", "udpbcast://10.0.0.255:14555"})
         EXPECT_THAT(text_of(url), AllOf(HasSubstr("nothing was sent"), HasSubstr("use udpin://0.0.0.0:14555"))) << url;
-    EXPECT_THAT(text_of("udpout://10.0.0.1:14555", sent()), Not(HasSubstr("udpin")));
+    Heard refused;
+    refused.link.refused.add();
+    for (const auto& heard : {sent(), refused})
+        EXPECT_THAT(text_of("udpout://10.0.0.1:14555", heard), Not(HasSubstr("udpin")));
 }
 
 TEST(SilenceText, NamesWhatCameInstead) {

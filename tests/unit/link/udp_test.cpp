@@ -70,6 +70,20 @@ TEST(LinksUdp, AllFiveFramesOfADatagramArriveInOrder) {
     EXPECT_EQ(node.recorder.bytes(), datagram);
 }
 
+// RFC 791 and 768: 1500 bytes less 20 of IPv4 and 8 of UDP.
+TEST(LinksUdp, DatagramsThatEthernetSplitsAreCounted) {
+    Node node;
+    const auto in = node.add("udpin://127.0.0.1:0");
+    const auto peer = PlainSocket::udp();
+    for (const std::size_t size : {1472, 1473, 3000}) {
+        Bytes datagram = heartbeat(0);
+        datagram.resize(size);
+        peer.send_to(node.port(in), datagram);
+    }
+    ASSERT_TRUE(until([&] { return node.recorder.frames.size() == 3; }, node));
+    EXPECT_EQ(node.info(in).counters->long_datagrams.value(), 2u);
+}
+
 TEST(LinksUdp, ARushIsTakenWholeAndInOrder) {
     Node node;
     const auto in = node.add("udpin://127.0.0.1:0");
@@ -403,8 +417,8 @@ TEST(LinksUdp, KernelDropsAreCountedAlsoBehindTheLastDatagram) {
             return std::exchange(last, node.recorder.frames.size()) == node.recorder.frames.size() && last > 0;
         },
         node));
-    node.links->refresh_kernel_drops();
-    node.links->refresh_kernel_drops();
+    node.links->refresh_counters();
+    node.links->refresh_counters();
     EXPECT_EQ(node.info(in).counters->kernel_drop.value(), count - node.recorder.frames.size());
     EXPECT_GT(node.info(in).counters->kernel_drop.value(), 0u);
 }

@@ -55,6 +55,15 @@ TEST_F(LinksUdpBroadcast, BroadcastsFromAnEphemeralPort) {
     EXPECT_EQ(node.recorder.ups[0].second, fmt::format("udpbcast://127.255.255.255:{}", listener.port));
 }
 
+// Two programs on two machines broadcast from the same port.
+TEST_F(LinksUdpBroadcast, SomebodyElseWithTheSamePortIsHeard) {
+    const std::uint16_t port = PlainSocket::udp().port();
+    add(fmt::format("?bind=127.0.0.1:{}", port));
+    const PlainSocket other(SOCK_DGRAM, port, INADDR_LOOPBACK + 1);
+    other.send_to(port, heartbeat(1));
+    EXPECT_TRUE(until([&] { return node.recorder.bytes() == heartbeat(1); }, node));
+}
+
 TEST_F(LinksUdpBroadcast, WhoAnswersIsFedAlone) {
     const auto out = add();
     ASSERT_TRUE(hears(out, heartbeat(0)));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Counts operator new: printing messages into a buffer that has its size must not allocate.
+// Counts operator new: printing messages into a buffer that has its size must not allocate, nor must encoding them.
 #include <gtest/gtest.h>
 
+#include "mavloom/message/cdr.hpp"
 #include "support/count_allocations.hpp"
 #include "unit/message/sample_messages.hpp"
 
@@ -43,6 +44,18 @@ TEST(Formatter, AllocatesOnlyUntilTheBufferHasGrown) {
     const auto before = test::allocations;
     print_many();
     EXPECT_EQ(test::allocations, before);
+}
+
+TEST(CdrEncoder, AllocatesNothingForAPayload) {
+    const std::vector<std::uint8_t> payload(20, 0xfe);
+    for (const auto& message : messages) {
+        const CdrEncoder encoder(message);
+        std::vector<std::uint8_t> out(encoder.max_size());
+        const auto before = test::allocations;
+        const auto size = encoder.encode(payload, out);
+        EXPECT_EQ(test::allocations, before) << message.name;
+        EXPECT_LE(size, out.size());
+    }
 }
 
 }  // namespace

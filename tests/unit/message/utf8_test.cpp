@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "message/utf8.hpp"
+#include "mavloom/message/utf8.hpp"
 
 #include <gtest/gtest.h>
 

@@ -95,6 +95,17 @@ TEST(BlockQueue, AtTheBoundSupersededTelemetryGoesFirst) {
     EXPECT_EQ(content(queue), "old2new1cmd.more");
 }
 
+TEST(BlockQueue, CountsWhatItDropsByClass) {
+    BlockQueue queue = queue_of(10);
+    for (const auto block_class : {1, 2, 2}) (void)push(queue, "abc", static_cast<std::uint8_t>(block_class));
+    EXPECT_THAT(queue.dropped(), testing::ElementsAre(0, 0, 0));
+    EXPECT_EQ(push(queue, "essential", 0).dropped, 3u);
+    EXPECT_EQ(push(queue, "late", 2).dropped, 1u);
+    EXPECT_THAT(queue.dropped(), testing::ElementsAre(0, 1, 3));
+    EXPECT_EQ(queue.expire(start + seconds(60)), 1u);
+    EXPECT_THAT(queue.dropped(), testing::ElementsAre(1, 1, 3));
+}
+
 TEST(BlockQueue, AnArrivingValueReplacesTheOlderOneOfItsKey) {
     BlockQueue queue = queue_of(12);
     push(queue, "aaa1", 2, 1);

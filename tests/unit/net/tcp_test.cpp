@@ -131,6 +131,27 @@ TEST(PortHolder, OfAllAddressesHasEachOfThem) {
     }
 }
 
+// Another program, which was in nobody's way, was named.
+TEST(PortHolder, OfAllIPv4AddressesHasNoIPv6One) {
+    const auto listener = TcpListener::open(*Address::parse("0.0.0.0", 0), false);
+    ASSERT_TRUE(listener) << listener.error().text;
+    EXPECT_EQ(port_holder(Transport::tcp, *Address::parse("::1", listener->local().port())), "");
+    EXPECT_EQ(port_holder(Transport::tcp, *Address::parse("::", listener->local().port())), "this process");
+}
+
+TEST_F(Tcp, TheHolderOfAPortIsSearchedOnceForRepeatedFailures) {
+    BindErrors errors(Transport::tcp);
+    const Address local = listener.local();
+    const SetupError failed = TcpListener::open(local, false).error();
+    const auto named = failed.text + " by this process";
+    EXPECT_EQ(errors.complete(failed, local).value().text, named);
+    listener = {};
+    EXPECT_EQ(errors.complete(failed, local).value().text, named) << "searched again";
+    EXPECT_EQ(errors.complete(failed, *Address::parse("127.0.0.9", local.port())).value().text, failed.text);
+    const SetupError other = TcpListener::open(*Address::parse("192.0.2.1", 1), false).error();
+    EXPECT_EQ(errors.complete(other, local).value().text, other.text);
+}
+
 TEST_F(Tcp, ARefusedConnectionIsNamed) {
     const Address closed = listener.local();
     listener = {};

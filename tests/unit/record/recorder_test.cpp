@@ -39,7 +39,7 @@ struct Recording {
         sut->publish();
     }
     [[nodiscard]] bool reports(std::string_view text) {
-        sut->look_after();
+        sut->maintain();
         const std::lock_guard lock(mutex);
         return notices.find(text) != std::string::npos;
     }
@@ -106,6 +106,17 @@ TEST(Recorder, AFileThatWasDeletedIsReportedAtTheEnd) {
     EXPECT_EQ(content_of(dir / "x.tlog").size(), bytes_of_record);
 }
 
+TEST(Recorder, AFileThatWasDeletedAfterTheLastFrameIsReportedAtTheEnd) {
+    const TempDir dir;
+    Recording tape(dir / "x.tlog");
+    tape.record(1);
+    ASSERT_TRUE(eventually([&] { return tape.sut->counters().frames.value() == 1; }));
+    std::filesystem::remove(dir / "x.tlog");
+    tape.sut->stop();
+
+    EXPECT_TRUE(tape.notices.find("was removed or replaced") != std::string::npos) << tape.notices;
+}
+
 TEST(Recorder, FramesThatNeverReachAFileAreCounted) {
     const TempDir dir;
     std::filesystem::create_directory(dir / "sub");
@@ -121,6 +132,7 @@ TEST(Recorder, FramesThatNeverReachAFileAreCounted) {
     EXPECT_GT(counters.queue_full.value(), 0u);
     EXPECT_EQ(counters.queue_full.value() + counters.write_error.value(), frames);
     EXPECT_TRUE(tape.reports("frames not written"));
+    EXPECT_FALSE(tape.reports("written again"));
 }
 
 }  // namespace

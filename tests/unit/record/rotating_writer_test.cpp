@@ -210,7 +210,7 @@ TEST_P(LosesItsFile, WhatIsBufferedGoesToTheNewFile) {
     for (const auto time : {0s, 1s}) ASSERT_TRUE(writer.write(begin + time, heartbeat()).has_value());
     GetParam().lose(dir / "x.tlog");
 
-    EXPECT_EQ(writer.look_after(MonoTime{} + 1s).value(), dir / "x.tlog");
+    EXPECT_EQ(writer.maintain(MonoTime{} + 1s).value(), dir / "x.tlog");
     record(writer, {2s});
 
     EXPECT_EQ(content_of(dir / GetParam().continues_in).size(), 3 * heartbeat_record_bytes);
@@ -228,7 +228,7 @@ TEST_P(LosesItsFile, WhatIsBufferedBeginsTheNextSegment) {
     ASSERT_TRUE(writer.write(begin + 2s, heartbeat()).has_value());
     GetParam().lose(dir / "x-20231114T221320.000Z.tlog");
 
-    EXPECT_FALSE(writer.look_after(MonoTime{} + 1s).value().empty());
+    EXPECT_FALSE(writer.maintain(MonoTime{} + 1s).value().empty());
     record(writer, {11s, 12s});
 
     EXPECT_EQ(content_of(dir / "x-20231114T221322.000Z.tlog").size(), 2 * heartbeat_record_bytes);
@@ -242,11 +242,26 @@ TEST_P(LosesItsFile, WhatIsBufferedAtTheEndIsWritten) {
     ASSERT_TRUE(writer.write(begin, heartbeat()).has_value());
     GetParam().lose(dir / "x.tlog");
 
-    ASSERT_TRUE(writer.close().has_value());
+    EXPECT_EQ(writer.close().value(), dir / "x.tlog") << "nobody looks any more, so this reports it";
     EXPECT_EQ(content_of(dir / GetParam().continues_in).size(), heartbeat_record_bytes);
     EXPECT_EQ(writer.written_records(), 1u);
-    EXPECT_EQ(writer.take_left(), dir / "x.tlog") << "nobody looks any more, so this reports it";
-    EXPECT_TRUE(writer.take_left().empty());
+    EXPECT_EQ(writer.close().value(), "");
+}
+
+// It was reported only if something was buffered.
+TEST_P(LosesItsFile, AtTheEndItIsReportedEvenIfNothingIsBuffered) {
+    const TempDir dir;
+    auto writer = created(dir / "x.tlog", {});
+    ASSERT_TRUE(writer.write(begin, heartbeat()).has_value());
+    ASSERT_TRUE(writer.flush().has_value());
+    GetParam().lose(dir / "x.tlog");
+
+    const auto removed = writer.close();
+    EXPECT_EQ(removed.value(), dir / "x.tlog");
+    EXPECT_EQ(writer.removal_notice(*removed),
+              (dir / "x.tlog").string() + " was removed or replaced before it was complete");
+    EXPECT_FALSE(std::filesystem::exists(dir / "x_2.tlog")) << "there is nothing to write";
+    EXPECT_EQ(writer.written_records(), 1u);
 }
 
 TEST(RotatingWriter, WithoutAFileNothingCountsAsWritten) {
@@ -256,7 +271,7 @@ TEST(RotatingWriter, WithoutAFileNothingCountsAsWritten) {
     ASSERT_TRUE(writer.write(begin, heartbeat()).has_value());
     std::filesystem::remove_all(dir / "sub");
 
-    EXPECT_FALSE(writer.look_after(MonoTime{} + 1s).has_value());
+    EXPECT_FALSE(writer.maintain(MonoTime{} + 1s).has_value());
     EXPECT_FALSE(writer.flush().has_value());
     std::uint64_t taken = 1;
     while (writer.write(begin, heartbeat())) ++taken;
@@ -264,7 +279,7 @@ TEST(RotatingWriter, WithoutAFileNothingCountsAsWritten) {
     EXPECT_EQ(writer.lost_records(), 1u) << "the buffer is full";
 
     std::filesystem::create_directory(dir / "sub");
-    EXPECT_EQ(writer.look_after(MonoTime{} + 2s).value(), dir / "sub/x.tlog");
+    EXPECT_EQ(writer.maintain(MonoTime{} + 2s).value(), dir / "sub/x.tlog");
     ASSERT_TRUE(writer.close().has_value());
     EXPECT_EQ(writer.written_records(), taken);
     EXPECT_EQ(content_of(dir / "sub/x.tlog").size(), taken * heartbeat_record_bytes);
@@ -295,7 +310,7 @@ TEST_P(FindsAnotherFileInItsPlace, ContinuesBesideIt) {
     GetParam().put_at(dir / "x.tlog");
     const auto intruder = std::filesystem::symlink_status(dir / "x.tlog").type();
 
-    EXPECT_EQ(writer.look_after(MonoTime{} + 1s).value(), dir / "x.tlog");
+    EXPECT_EQ(writer.maintain(MonoTime{} + 1s).value(), dir / "x.tlog");
     EXPECT_EQ(writer.segment_path(), dir / "x_2.tlog");
     record(writer, {1s});
 
@@ -328,7 +343,7 @@ TEST(RotatingWriter, NothingIsWrittenToADeletedFile) {
         }
     }
 
-    EXPECT_EQ(writer.look_after(MonoTime{} + 1s).value(), dir / "x.tlog");
+    EXPECT_EQ(writer.maintain(MonoTime{} + 1s).value(), dir / "x.tlog");
     ASSERT_TRUE(writer.close().has_value());
     EXPECT_EQ(content_of(dir / "x.tlog").size(), count * heartbeat_record_bytes);
 }
@@ -343,7 +358,7 @@ TEST(RotatingWriter, ADeletedSegmentIsReportedIfTheNextOneBeginsFirst) {
     ASSERT_TRUE(writer.write(begin + 1s, heartbeat()).has_value());
     ASSERT_TRUE(writer.write(begin + 11s, heartbeat()).has_value());
 
-    EXPECT_EQ(writer.look_after(MonoTime{} + 1s).value(), dir / "x-20231114T221320.000Z.tlog");
+    EXPECT_EQ(writer.maintain(MonoTime{} + 1s).value(), dir / "x-20231114T221320.000Z.tlog");
     record(writer, {12s});
     EXPECT_EQ(content_of(dir / "x-20231114T221321.000Z.tlog").size(), heartbeat_record_bytes);
     EXPECT_EQ(content_of(dir / "x-20231114T221331.000Z.tlog").size(), 2 * heartbeat_record_bytes);

@@ -39,8 +39,7 @@ struct RingSourceTest : ::testing::Test {
     shm::RingWriter writer = opened(shm::RingWriter::open(name.text(), {.capacity = shm::min_capacity}));
     const dialect::Dialect& dialect = dialect::default_dialect();
     std::unique_ptr<link::Links> links = opened(link::Links::create(dialect));
-    RingLinkIds ids;
-    RingSource sut{endpoint_of("shm://" + name.text()), dialect.wire_table(), ids, *links, Copies::kept};
+    RingSource sut{endpoint_of("shm://" + name.text()), dialect.wire_table(), *links, Copies::kept};
     CountsFrames handler;
 
     template <class T>

@@ -93,7 +93,7 @@ TEST(RingTap, GoesWithTheRingThatIsBeingCreatedAgain) {
     std::binary_semaphore ready{0};
     auto tap = open(name, [&] { ready.release(); });
     ::unlink(name.path().c_str());
-    EXPECT_THAT(tap->look_after(*node.links), ::testing::IsEmpty());
+    EXPECT_THAT(tap->maintain(*node.links), ::testing::IsEmpty());
     const Bytes bytes = attitude(7);
     tap->write(received(bytes), route::Verdict::forwarded, false);
     ASSERT_TRUE(ready.try_acquire_for(std::chrono::seconds(60)));
@@ -112,13 +112,13 @@ TEST(RingTap, WhatIsRemovedIsCreatedAgainWithTheNames) {
     std::binary_semaphore ready{0};
     const auto tap = open(name, [&] { ready.release(); });
     tap->on_link_up(node.recorder.ups[0].first, node.recorder.ups[0].second);
-    EXPECT_THAT(tap->look_after(*node.links), ::testing::IsEmpty());
+    EXPECT_THAT(tap->maintain(*node.links), ::testing::IsEmpty());
     ASSERT_TRUE(shm::remove_ring(name.text()));
 
-    EXPECT_THAT(tap->look_after(*node.links), ::testing::IsEmpty()) << "another thread makes it";
+    EXPECT_THAT(tap->maintain(*node.links), ::testing::IsEmpty()) << "another thread makes it";
     ASSERT_TRUE(ready.try_acquire_for(std::chrono::seconds(60)));
-    EXPECT_THAT(tap->look_after(*node.links), ::testing::ElementsAre(::testing::HasSubstr("is created again")));
-    EXPECT_THAT(tap->look_after(*node.links), ::testing::IsEmpty());
+    EXPECT_THAT(tap->maintain(*node.links), ::testing::ElementsAre(::testing::HasSubstr("is created again")));
+    EXPECT_THAT(tap->maintain(*node.links), ::testing::IsEmpty());
     const auto page = shm::read_counters(name.text());
     ASSERT_TRUE(page);
     EXPECT_THAT(page->links, ::testing::ElementsAre(node.recorder.ups[0]));
@@ -180,7 +180,7 @@ std::vector<link::LinkInfo> infos(const std::vector<Counted>& links) {
     std::vector<link::LinkInfo> all;
     all.reserve(links.size());
     for (const auto& link : links)
-        all.push_back({link.id, {}, fmt::format("link {}", link.id.value), true, &link.counters});
+        all.push_back({link.id, {}, fmt::format("link {}", link.id.value), true, Rank::own, &link.counters});
     return all;
 }
 
@@ -261,6 +261,23 @@ TEST(RingPage, TheBusiestHaveRowsAndTheRestASum) {
     EXPECT_EQ(unlinked(*seen)["others_frames_in"], 44u * 10 + 5);
 }
 
+TEST(RingPage, ALinkThatWasNeverUpHasANameAndItsState) {
+    const RingName name;
+    auto page = RingPage::create(name.text(), 0600);
+    ASSERT_TRUE(page);
+    const auto links = links_with({0, 3});
+    auto all = infos(links);
+    all[0].up = false;
+    page->refresh(all, {}, {}, {});
+    const auto seen = shm::read_counters(name.text());
+    ASSERT_TRUE(seen);
+    EXPECT_EQ(seen->links.at(LinkId{1}), "link 1");
+    std::map<LinkId, std::uint64_t> up;
+    for (const auto& counter : seen->counters)
+        if (counter.label == "up") up.emplace(*counter.link, counter.value);
+    EXPECT_THAT(up, ::testing::ElementsAre(std::pair(LinkId{1}, 0u), std::pair(LinkId{2}, 1u)));
+}
+
 TEST(RingPage, KeepsTheNamesOfLinksThatWentWhileThereIsRoom) {
     const RingName name;
     auto page = RingPage::create(name.text(), 0600);
@@ -273,7 +290,7 @@ TEST(RingPage, KeepsTheNamesOfLinksThatWentWhileThereIsRoom) {
     page->name_link(LinkId{all + 1}, "who lives");
     const auto seen = shm::read_counters(name.text());
     ASSERT_TRUE(seen);
-    EXPECT_EQ(seen->links.size(), RingPage::most_gone + 1);
+    EXPECT_EQ(seen->links.size(), RingPage::max_gone + 1);
     EXPECT_EQ(seen->links.at(LinkId{all}), "peer 6000");
     EXPECT_EQ(seen->links.at(LinkId{all + 1}), "who lives");
 }

@@ -100,7 +100,7 @@ TEST(RoutingCases, MR5UnseenSystemWithoutComponentFieldIsNotSent) {
 TEST(RoutingCases, MR6NothingGoesWhereItsSourceWasHeard) {
     Network sut;
     sut.links(3);
-    sut.settles(2, {12, 1});
+    sut.hears(2, {12, 1});
 
     EXPECT_THAT(sut.send(1, "ATTITUDE", {12, 1}), ElementsAre(3));
 }

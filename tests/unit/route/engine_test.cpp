@@ -85,8 +85,25 @@ TEST(Engine, LinkInTheSlotOfAnotherInheritsNothing) {
     sut.link();
 
     EXPECT_THAT(sut.pass(3, frame), IsEmpty());
-    EXPECT_EQ(sut.verdict, Verdict::duplicate);  // it came from 1; no echo, because link 3 was never sent it
+    EXPECT_EQ(sut.verdict, Verdict::nowhere);  // its sender is on 1; no echo, because link 3 was never sent it
     EXPECT_EQ(sut.counters(3).echo.value(), 0u);
+}
+
+// With a longer `dedup`, the engine remembers frames for longer. One that link 2 brought is still there.
+TEST(Engine, LinkInTheSlotOfAnotherInheritsNothingWhenDedupGrows) {
+    Network sut;
+    sut.links(2);
+    const Bytes frame = make_frame("ATTITUDE", vehicle);
+    sut.pass(2, frame);
+    sut.engine.remove_link(LinkId{2});
+    sut.wait(3s).hears(1, gcs);
+    sut.engine.set_options({.dedup = 10s});
+    sut.link();
+
+    sut.pass(3, frame);
+
+    EXPECT_EQ(sut.verdict, Verdict::duplicate);
+    EXPECT_THAT(sut.engine.routes(LinkId{3}, sut.now), testing::SizeIs(1)) << "it did not bring the frame before";
 }
 
 // So many links come and go within two seconds that slots are taken again at once.
@@ -235,7 +252,7 @@ TEST(Engine, UnknownIdIsBroadcastAndTeachesNothing) {
 
     EXPECT_THAT(sut.pass(1, make_unknown({33, 1})), ElementsAre(2, 3));
     EXPECT_TRUE(sut.engine.routes(sut.now).empty());
-    sut.settles(2, {33, 1});
+    sut.hears(2, {33, 1});
     EXPECT_THAT(sut.pass(1, make_unknown({33, 1}, 1)), ElementsAre(3));
 }
 
@@ -262,7 +279,7 @@ TEST(Engine, OwnIdIsConsumedAndItsSystemIsNot) {
 TEST(Engine, DuplicateOnAnotherLinkIsDroppedAndTeachesItsRoute) {
     Network sut({.dedup = 250ms});
     sut.links(3);
-    sut.settles(2, gcs);
+    sut.hears(2, gcs);
     const Bytes frame = make_frame("ATTITUDE", gcs);
     ASSERT_THAT(sut.pass(1, frame), ElementsAre(3));
     sut.wait(249ms);
@@ -271,7 +288,7 @@ TEST(Engine, DuplicateOnAnotherLinkIsDroppedAndTeachesItsRoute) {
 
     EXPECT_EQ(sut.verdict, Verdict::duplicate);
     EXPECT_EQ(sut.counters(2).duplicate.value(), 1u);
-    EXPECT_EQ(sut.engine.routes(sut.now)[1].frames, 3u);
+    EXPECT_EQ(sut.engine.routes(sut.now)[1].frames, 2u);
 }
 
 TEST(Engine, AFrameOfAPrivateLinkIsNoDuplicateElsewhere) {
@@ -333,6 +350,7 @@ TEST(Engine, LoopOfTwoRoutersEndsAlsoForAFrameThatTheNetworkDoubles) {
     ASSERT_THAT(sut.pass(1, frame), ElementsAre(2, 3));
     sut.engine.remove_link(LinkId{3});
     const auto back = sut.link();
+    sut.wait(1ms);
 
     for (int i = 0; i < 3; ++i) EXPECT_THAT(sut.pass(back, frame), IsEmpty()) << i;
     EXPECT_EQ(sut.verdict, Verdict::duplicate);
@@ -344,7 +362,7 @@ TEST(Engine, CopyFromAnotherLinkIsANewFrameAfterTwoSeconds) {
     Network sut;
     sut.links(3);
     const Bytes frame = make_frame("ATTITUDE", vehicle);
-    sut.settles(1, vehicle);
+    sut.hears(1, vehicle);
     sut.pass(1, frame);
     const auto back = sut.link();
     sut.wait(2s - 1ns);
@@ -374,7 +392,7 @@ TEST(Engine, EchoEndsAfterTwoSeconds) {
     Network sut;
     sut.links(2);
     const Bytes frame = make_frame("ATTITUDE", vehicle);
-    sut.settles(1, vehicle);
+    sut.hears(1, vehicle);
     sut.pass(1, frame);
     sut.wait(2s - 1ns);
     EXPECT_THAT(sut.pass(2, frame), IsEmpty());
@@ -704,8 +722,8 @@ TEST(Engine, MaxBytesHoldsTelemetryAndLetsCommandsThrough) {
 
 // Link 1 is verified, link 2 is not, link 3 is limited.
 Network& with_forger(Network& network, const LinkPolicy& limits) {
-    network.link({.is_verified = true});
-    network.link();
+    network.link({.rank = Rank::verified});
+    network.link({.rank = Rank::stranger});
     network.link(limits);
     return network;
 }
@@ -825,7 +843,7 @@ TEST(Engine, ExplainsEveryLinkOfABroadcast) {
     sut.link({.max_bytes_per_s = 0});                                       // 9
     sut.hears(2, {9, 9});
     sut.hears(3, {9, 9});
-    sut.settles(7, camera);
+    sut.hears(7, camera);
     sut.send(1, "ATTITUDE", camera);
     for (int i = 0; i < 20; ++i) sut.send(1, "ALTITUDE", camera, {{"bottom_clearance", 1}});
 

@@ -19,6 +19,7 @@
 #include "mavloom/route/engine.hpp"
 #include "mavloom/wire/frame_writer.hpp"
 #include "support/bytes.hpp"
+#include "support/filter.hpp"
 
 namespace mavloom::route::test {
 
@@ -82,12 +83,6 @@ public:
     }
     // The link hears a heartbeat of this source.
     Ids hears(std::uint32_t link, Id source) { return send(link, "HEARTBEAT", source, {{"custom_mode", ++count}}); }
-    // The link hears the source often enough for it to be present there.
-    void settles(std::uint32_t link, Id source) {
-        hears(link, source);
-        wait(Engine::repeated_after);
-        hears(link, source);
-    }
     // Where a frame goes that comes in on `link`.
     Ids send(std::uint32_t link, std::string_view name, Id source, const Fields& fields = {}) {
         return pass(link, make_frame(name, source, fields, static_cast<std::uint8_t>(count++)));
@@ -126,17 +121,7 @@ public:
     std::uint32_t last_link = 0;
 };
 
-struct Terms {
-    std::vector<std::string> messages{};
-    std::vector<std::uint8_t> systems{}, components{};
-};
-
-inline Filter make_filter(const Terms& allow, const Terms& block) {
-    auto filter = Filter::compile(dialect::default_dialect(), {"allow", allow.messages, allow.systems, allow.components},
-                                  {"block", block.messages, block.systems, block.components});
-    if (!filter) throw std::invalid_argument(filter.error().text);
-    return *filter;
-}
+using mavloom::test::make_filter;
 
 inline dialect::Rates make_rates(const std::vector<dialect::RateTerm>& terms) {
     auto rates = dialect::Rates::compile(dialect::default_dialect(), terms);

@@ -24,7 +24,7 @@ struct ModelWords {
     // Of the two lengths that there are: short, and for ever.
     static bool sleep(const Word32& word, std::uint32_t expected, Nanoseconds longest) {
         if (word.load(std::memory_order_seq_cst) != expected) return false;
-        if (longest <= detail::wake_distance) return test::running_schedule->nap(&word);
+        if (longest <= detail::wake_interval) return test::running_schedule->nap(&word);
         test::running_schedule->sleep(&word);
         return false;
     }

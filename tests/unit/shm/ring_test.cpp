@@ -883,6 +883,22 @@ TEST(RingProcess, TheHoldOfAReaderThatWasKilledIsGivenUp) {
     EXPECT_TRUE(ring_status(name.text())->readers.empty());
 }
 
+TEST(RingProcess, TheNextReaderInTheSlotOfOneThatWasKilledHoldsNobody) {
+    const RingName name;
+    auto writer = open_writer(name, WhenFull::drop_newest);
+    EXPECT_EQ(in_child([&] {
+                  auto reader = open_reader(name, lossless);
+                  ::kill(::getpid(), SIGKILL);
+                  return 0;
+              }),
+              128 + SIGKILL);
+    const auto reader = open_reader(name);
+    ASSERT_EQ(ring_status(name.text())->readers.size(), 1u);
+    EXPECT_FALSE(ring_status(name.text())->readers[0].holds);
+    write_many(writer, 500);
+    EXPECT_EQ(writer.dropped(), 0u);
+}
+
 TEST(RingProcess, AStoppedReaderIsNotTakenForDead) {
     const RingName name;
     auto writer = open_writer(name, WhenFull::drop_newest);

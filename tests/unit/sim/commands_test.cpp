@@ -443,7 +443,7 @@ TEST(FlightCommands, ArduPilotNamesTheModeThatForbidsToArm) {
     ASSERT_TRUE(rig.vehicle.set_mode("RTL"));
     const auto refused = rig.vehicle.arm(false);
     ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().text, "Arm: this mode does not allow it");
+    EXPECT_EQ(refused.error().text, "Arm: RTL mode not armable");
     rig.run(1.0);
     EXPECT_NE(rig.last<msg::SysStatus>()->onboard_control_sensors_health & msg::MAV_SYS_STATUS_PREARM_CHECK, 0u);
 }
@@ -517,6 +517,9 @@ TEST(MaintenanceCommands, InjectFailuresOfSensors) {
     EXPECT_EQ(bench.command(420, {nan_f, 1, 0}), denied);
     EXPECT_EQ(bench.command(420, {100, 1, 0}), accepted) << "battery";
     EXPECT_LT(bench.state().battery_percent, 5);
+    EXPECT_EQ(bench.command(420, {100, 2, 0}), unsupported) << "no battery gets stuck";
+    EXPECT_EQ(bench.command(420, {100, 0, 0}), accepted);
+    EXPECT_GT(bench.state().battery_percent, 99);
     EXPECT_TRUE(bench.rig.vehicle.set_parameter("SYS_FAILURE_EN", 0).has_value());
     EXPECT_EQ(bench.command(420, {4, 1, 0}), denied);
 }

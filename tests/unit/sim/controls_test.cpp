@@ -262,6 +262,27 @@ TEST(Controls, ArduPilotStopsWhenVelocitiesEnd) {
     EXPECT_EQ(bench.state().mode, "GUIDED");
 }
 
+// A thrust must be there, the quaternion must have the length 1, and the rates come together (ArduCopter).
+TEST(Controls, ArduPilotStopsAtAttitudesThatItCannotFly) {
+    const msg::SetAttitudeTarget good{.target_system = 1, .type_mask = 0x07, .q = {1, 0, 0, 0}, .thrust = 0.5f};
+    auto no_thrust = good, no_attitude = good, one_rate = good;
+    no_thrust.type_mask = 0x47;
+    no_attitude.q = {0.9f, 0, 0, 0};
+    one_rate.type_mask = 0x03;
+    for (const auto& target : {no_thrust, no_attitude, one_rate}) {
+        Bench bench(Autopilot::ardupilot);
+        auto east = local_target(velocity_mask);
+        east.vy = 3;
+        ASSERT_TRUE(begin(bench, east));
+        repeat(bench, east, 5);
+        bench.rig.forget();
+        bench.rig.send(target);
+        bench.rig.run(2.5);  // less than GUID_TIMEOUT, 3 s
+        EXPECT_LT(speed(bench), 0.3) << int{target.type_mask};
+        EXPECT_THAT(bench.rig.all<msg::Statustext>(), testing::IsEmpty());
+    }
+}
+
 // DroneKit's simple_goto() while velocities are still fresh: the newer order counts.
 TEST(Controls, ArduPilotFliesToAGoalThatFollowsVelocities) {
     Bench bench(Autopilot::ardupilot);

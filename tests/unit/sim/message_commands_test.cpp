@@ -27,6 +27,7 @@
 #include "mavloom/msg/protocol_version.hpp"
 #include "mavloom/msg/request_data_stream.hpp"
 #include "mavloom/msg/vfr_hud.hpp"
+#include "unit/sim/bench.hpp"
 #include "unit/sim/rig.hpp"
 
 namespace mavloom::sim {
@@ -40,7 +41,6 @@ using testing::Each;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-constexpr float nan_f = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 // A vehicle that is ready, and has sent what it sends at the start.

@@ -78,12 +78,12 @@ TEST(ParameterService, SendsAtLeastAThousandValuesASecond) {
 // At 57,600 baud a link takes 5,760 bytes a second. The queue may not grow beyond a few frames.
 TEST(ParameterService, WaitsWhileTheLinkHasNoRoom) {
     Rig rig;
-    rig.sink.queued[1] = 10'000;
+    rig.sink.full = {1};
     rig.send(list_request);
     rig.run(1.0);
     EXPECT_TRUE(rig.all<msg::ParamValue>().empty());
 
-    rig.sink.queued[1] = 0;
+    rig.sink.full = {};
     rig.run(2.0);
 
     const auto values = rig.all<msg::ParamValue>();
@@ -295,7 +295,7 @@ TEST(ParameterService, DropsTheListOfAClosedLink) {
 
 TEST(ParameterService, LimitsTheNumberOfClients) {
     Rig rig;
-    rig.sink.queued[1] = 10'000;
+    rig.sink.full = {1};
     for (int i = 0; i < 100; ++i)
         rig.send(list_request, {.id = {SystemId{static_cast<std::uint8_t>(100 + i)}, ComponentId{1}}});
 
@@ -306,7 +306,7 @@ TEST(ParameterService, LimitsTheNumberOfClients) {
 TEST(ParameterService, AClientWithManyIdsKeepsNoOtherLinkOut) {
     Rig rig;
     rig.vehicle.open(LinkId{2}, {}, rig.now());
-    rig.sink.queued[1] = 10'000;
+    rig.sink.full = {1};
     for (int i = 0; i < 100; ++i)
         rig.send(list_request, {.id = {SystemId{static_cast<std::uint8_t>(100 + i)}, ComponentId{1}}});
 

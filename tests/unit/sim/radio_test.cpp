@@ -87,13 +87,5 @@ TEST_F(RadioTest, SignedLinksHaveLinkIdsOfTheirOwnAlsoAfterOneCloses) {
     EXPECT_FALSE(send(second).is_signed());
 }
 
-TEST_F(RadioTest, BulkPausesWhileTheQueueIsLong) {
-    sink.queued[first.value] = 4'095;
-    EXPECT_TRUE(radio.has_room(first));
-    sink.queued[first.value] = 4'096;
-    EXPECT_FALSE(radio.has_room(first));
-    EXPECT_TRUE(radio.has_room(second));
-}
-
 }  // namespace
 }  // namespace mavloom::sim

@@ -4,8 +4,8 @@
 
 #include <chrono>
 #include <functional>
-#include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -29,14 +29,11 @@ public:
     void send(LinkId link, const wire::FrameView& frame) override {
         frames.push_back({link, now, {frame.bytes().begin(), frame.bytes().end()}});
     }
-    [[nodiscard]] std::size_t queued_bytes(LinkId link) const override {
-        const auto at = queued.find(link.value);
-        return at == queued.end() ? 0 : at->second;
-    }
+    [[nodiscard]] bool has_room(LinkId link) const override { return !full.contains(link.value); }
 
     FlightTime now{};
     std::vector<Sent> frames;
-    std::map<std::uint32_t, std::size_t> queued;  // by link: what `queued_bytes` returns
+    std::set<std::uint32_t> full;  // links without room
 };
 
 // The client that a test plays.

@@ -16,8 +16,6 @@
 #include "mavloom/msg/ping.hpp"
 #include "mavloom/msg/radio_status.hpp"
 #include "mavloom/msg/timesync.hpp"
-#include "sim/telemetry/profiles.hpp"
-#include "sim/telemetry/projections.hpp"
 #include "unit/sim/rig.hpp"
 
 namespace mavloom::sim {
@@ -26,10 +24,6 @@ namespace {
 using test::Peer;
 using test::Rig;
 using test::Sent;
-using testing::DoubleNear;
-using testing::Each;
-using testing::Ge;
-using testing::Le;
 
 constexpr Profile all_profiles[] = {Profile::lite,        Profile::normal,    Profile::px4_normal,
                                     Profile::px4_onboard, Profile::ardupilot, Profile::original};
@@ -80,18 +74,6 @@ TEST(Streams, HeartbeatBeginsAtOnceAndKeepsItsRate) {
 
 class EveryProfile : public testing::TestWithParam<Profile> {};
 INSTANTIATE_TEST_SUITE_P(Streams, EveryProfile, testing::ValuesIn(all_profiles));
-
-// The two PX4 profiles list what PX4 1.17 sends.
-TEST(Streams, ThatAPx4VehicleSendsByDefaultAreThoseOfPx4) {
-    std::set<std::uint32_t> known;
-    for (const Profile profile : {Profile::px4_normal, Profile::px4_onboard})
-        for (const StreamRate& stream : rates_of(profile)) known.insert(stream.message.value);
-    for (const StreamRate& stream : rates_of(Profile::normal)) {
-        const Projection* const projection = find_projection(stream.message, true);
-        if (projection == nullptr) continue;
-        EXPECT_TRUE(known.contains(stream.message.value)) << projection->name;
-    }
-}
 
 // One rounding error of an interval may be as large as half a nanosecond; over the minute they add up.
 TEST_P(EveryProfile, StreamsKeepTheirGridToTheMicrosecond) {

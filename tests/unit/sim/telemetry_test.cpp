@@ -201,6 +201,21 @@ TEST(TelemetryAtRest, FieldsAreThoseOfPx4ForAGroundStation) {
     expect_like(rig, recorded);
 }
 
+// The recordings have a flight, and a session in which the client asks for everything.
+TEST(TelemetryByDefault, HasOnlyMessagesThatPx4Sends) {
+    std::set<std::uint32_t> known = no_streams;
+    for (const char* const name : {"px4_gcs_flight.tlog", "px4_gcs_session.tlog", "px4_onboard_rest.tlog"})
+        for (const Recorded& px4 : recording(name, 200)) known.insert(px4.frame().id().value);
+    Rig rig({}, {.profile = Profile::normal});
+    rig.run(4.0);
+    ASSERT_TRUE(rig.vehicle.take_off(8));
+    rig.run(15.0);
+
+    const auto ours = newest(rig);
+    EXPECT_GT(ours.size(), 20u);
+    for (const auto& [id, sent] : ours) EXPECT_TRUE(known.contains(id)) << view_of(sent->frame()).definition().name;
+}
+
 TEST(TelemetryAtRest, FieldsAreThoseOfPx4ForACompanionComputer) {
     const auto recorded = recording("px4_onboard_rest.tlog", 60);
     ASSERT_EQ(recorded.size(), 70u);

@@ -49,6 +49,17 @@ TEST(Scenario, OptionsComeBeforeTheEnvironmentAndThatBeforeTheFile) {
     EXPECT_EQ(sut.vehicles[0].options.kind, sim::Kind::rover);
 }
 
+// `mavloom check` passed it, and the simulator did not start.
+TEST(Scenario, ServesMetricsAtANumericAddress) {
+    const auto document = config::parse_document("[sim]\nmetrics = \"localhost:9090\"\n", "x.toml");
+    ASSERT_TRUE(document) << document.error().text;
+    const auto refused = read_scenario(*document, {}, {});
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().text, HasSubstr("'localhost' is not a numeric address of this machine; for example, "
+                                                "type 127.0.0.1:9090"));
+    EXPECT_EQ(read("[sim]\nmetrics = \"[::1]:0\"\n").metrics->host, "::1");
+}
+
 TEST(Scenario, HomeNeedsOnlyAPlace) {
     const auto home_of = [](std::string_view text) {
         return read(fmt::format("[[vehicle]]\nhome = \"{}\"\n", text)).vehicles[0].options.home;

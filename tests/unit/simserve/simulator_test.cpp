@@ -42,12 +42,14 @@ private:
 };
 
 struct SimulatorTest : testing::Test {
-    SimulatorTest() {
-        auto made = Simulator::create(dialect::default_dialect(), {.profile = sim::Profile::px4_normal},
-                                      [](config::LogLevel, std::string_view) {});
+    SimulatorTest() { create({.profile = sim::Profile::px4_normal}); }
+
+    void create(const SimulatorOptions& options, std::string_view endpoint_options = "") {
+        auto made = Simulator::create(dialect::default_dialect(), options, [](config::LogLevel, std::string_view) {});
         sut = std::move(*made);
         EXPECT_TRUE(sut->add(sim::VehicleOptions{}));
-        EXPECT_TRUE(sut->add({*endpoint::parse_endpoint("udpout://127.0.0.1:" + std::to_string(receiver.port()))}));
+        const auto url = fmt::format("udpout://127.0.0.1:{}{}", receiver.port(), endpoint_options);
+        EXPECT_TRUE(sut->add({*endpoint::parse_endpoint(url)}));
     }
 
     void run(Nanoseconds time) {
@@ -72,6 +74,16 @@ TEST_F(SimulatorTest, SendsWithoutAllocating) {
 
     EXPECT_GT(sut->totals().frames_sent, sent + 100);
     EXPECT_GE(clean + 12, turns);
+}
+
+TEST_F(SimulatorTest, ALimitCountsRealSecondsAtEverySpeed) {
+    create({.speed = 4, .profile = sim::Profile::px4_normal}, "?max_bytes=10000");
+    run(500ms);
+    const auto before = sut->totals().bytes_sent;
+    run(2s);
+    const auto bytes_s = static_cast<double>(sut->totals().bytes_sent - before) / 2;
+    EXPECT_GT(bytes_s, 5'000);
+    EXPECT_LT(bytes_s, 12'000);
 }
 
 TEST_F(SimulatorTest, AnswersRequests) {

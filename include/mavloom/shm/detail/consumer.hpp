@@ -11,6 +11,7 @@
 // before it overwrites anything that the reader holds.
 #pragma once
 
+#include <cassert>
 #include <optional>
 #include <span>
 #include <utility>
@@ -31,13 +32,15 @@ public:
         : ring_(ring),
           slot_(slot),
           lossless_(lossless),
-          copy_(lossless ? 0 : max_payload(ring.capacity) / sizeof(std::uint64_t) + 1) {}
+          copy_(lossless ? 0 : max_payload(ring.capacity) / sizeof(std::uint64_t) + 1) {
+        assert(slot ? *slot < reader_slots : !lossless);
+    }
 
     enum class Start : std::uint8_t { newest, oldest };
     // Moves to the next record that will be written, or to the oldest one in the ring. A lossless reader sets its hold
     // at that position. Returns false if the ring is damaged.
     [[nodiscard]] bool start(Start where) noexcept {
-        for (int attempt = 0; attempt < most_attempts; ++attempt) {
+        for (int attempt = 0; attempt < max_attempts; ++attempt) {
             const std::uint64_t intent = ring_.control->intent.load(std::memory_order_acquire);
             const std::uint64_t tail = ring_.control->tail.load(std::memory_order_acquire);  // pairs with commit()
             auto at = where == Start::oldest ? find_mark(ring_, 0) : newest_mark(ring_);
@@ -61,8 +64,8 @@ public:
     // Gets the next record. Releases the previous one, whose view becomes invalid.
     [[nodiscard]] Found next(RingRecord& out) noexcept {
         release();
-        for (int attempt = 0; attempt < most_attempts; ++attempt) {
-            if (position_ == tail_ && !look_for_more()) return Found::empty;
+        for (int attempt = 0; attempt < max_attempts; ++attempt) {
+            if (position_ == tail_ && !load_tail()) return Found::empty;
             if (lossless_ && !has_hold()) {
                 if (!hold()) {
                     if (!skip_ahead()) return Found::damaged;
@@ -100,6 +103,7 @@ public:
     // of next() handles that.
     template <class Visit>
     [[nodiscard]] Found visit(std::size_t most, Visit&& visit) noexcept {
+        assert(lossless_ && most != 0);
         RingRecord record;
         const Found found = next(record);
         if (found != Found::record) return found;
@@ -125,6 +129,7 @@ public:
     // everything is read.
     void release() noexcept {
         if (!in_hand_) return;
+        assert(after_ > position_ && after_ <= tail_);
         in_hand_ = false;
         position_ = after_;
         ++sequence_;
@@ -151,13 +156,13 @@ public:
     // Sleeps until a commit, until the writer closes, or until `longest` is over. A reader without a slot may sleep for
     // all of `longest`, because the writer does not know about it.
     //
-    // The first sleep after a record is a nap of at most `wake_distance`, without asking the writer for a wake-up.
+    // The first sleep after a record is a nap of at most `wake_interval`, without asking the writer for a wake-up.
     // While records arrive continuously, the writer therefore neither reads the clock nor makes a system call.
     //
     // The second sleep sets this reader's bit in `sleepers`, but is just as short, because the writer may overlook a
     // bit that was just set:
     // - commit() reads `sleepers` before its store of `tail` is visible to others.
-    // - Producer::wake_readers() does nothing if it already ran within `wake_distance`.
+    // - Producer::wake_readers() does nothing if it already ran within `wake_interval`.
     //
     // The bit stays set until awake().
     void sleep(Nanoseconds longest) noexcept {
@@ -166,7 +171,7 @@ public:
             std::memory_order_acquire);  // pairs with Producer::wake_readers_now()
         if (slot_ && rest_ != Rest::nap && !fall_asleep()) rest_ = Rest::asked;
         const bool is_short = slot_ && rest_ != Rest::known;
-        if (is_short) longest = std::min(longest, wake_distance);
+        if (is_short) longest = std::min(longest, wake_interval);
         if (!more_waits() && Words::sleep(control.wakes, seen, longest) && is_short)
             rest_ = rest_ == Rest::nap ? Rest::asked : Rest::known;
     }
@@ -178,7 +183,7 @@ public:
         return (ring_.control->sleepers.fetch_or(bit(), std::memory_order_seq_cst) & bit()) != 0;
     }
     // Returns whether there is something that next() has not looked at. Call it after fall_asleep(): later commits then
-    // see the bit, except perhaps during the first `wake_distance` (see sleep()).
+    // see the bit, except perhaps during the first `wake_interval` (see sleep()).
     [[nodiscard]] bool more_waits() const noexcept {
         return ring_.control->tail.load(std::memory_order_seq_cst) != tail_ || retired();
     }
@@ -211,22 +216,26 @@ private:
     enum class Rest : std::uint8_t {
         nap,    // no wake-up requested
         asked,  // the bit is set, but the writer may overlook it
-        known,  // the writer sees the bit: it has been set for `wake_distance`
+        known,  // the writer sees the bit: it has been set for `wake_interval`
     };
     // No writer overtakes a reader this many times in a row, so failing this often means damage.
-    static constexpr int most_attempts = 10'000;
+    static constexpr int max_attempts = 10'000;
     static constexpr std::uint64_t publish_parts = 16;
 
-    [[nodiscard]] std::uint64_t bit() const noexcept { return std::uint64_t{1} << *slot_; }
+    [[nodiscard]] std::uint64_t bit() const noexcept {
+        assert(slot_.has_value());
+        return std::uint64_t{1} << *slot_;
+    }
 
     void go_to(Mark mark) noexcept {
+        assert(mark.position % record_alignment == 0);
         position_ = after_ = mark.position;
         sequence_ = mark.sequence;
         tail_ = position_;
         in_hand_ = false;
     }
 
-    [[nodiscard]] bool look_for_more() noexcept {
+    [[nodiscard]] bool load_tail() noexcept {
         tail_ = ring_.control->tail.load(std::memory_order_acquire);  // pairs with Producer::commit()
         if (tail_ != position_) return true;
         if (published_ != position_) publish();
@@ -271,6 +280,7 @@ private:
     void copy_payload(std::size_t length) noexcept {
         const auto* word = ring_.word(position_) + record_header_bytes / sizeof(std::uint64_t);
         const std::size_t words = (length + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t);
+        assert(words <= copy_.size());
         // Acquire: pairs with the release store of the same word in Producer::store_payload().
         for (std::size_t i = 0; i < words; ++i) copy_[i] = word[i].load(std::memory_order_acquire);
     }

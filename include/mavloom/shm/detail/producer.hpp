@@ -12,6 +12,7 @@
 #pragma once
 
 #include <bit>
+#include <cassert>
 #include <cstring>
 #include <limits>
 
@@ -49,10 +50,12 @@ public:
     // Makes room for a record with `length` bytes of payload (at most max_payload()). Discards an earlier claim. On
     // success, `payload` is valid.
     [[nodiscard]] Room claim(std::size_t length) noexcept {
+        assert(length <= max_payload(ring_.capacity));
         const std::uint64_t size = record_size(length);
         if (ring_.control->retired.load(std::memory_order_relaxed) != 0) return Room::removed;
         if (tail_ + size <= plain_) start_ = tail_;
         else if (!claim_farther(size)) return Room::held;
+        assert(start_ + size <= limit_ && size <= ring_.left_in_lap(start_));
         claimed_ = length;
         auto* const record = record_ = ring_.word(start_);
         record->store(pack({-1 - static_cast<std::int32_t>(length), 0, 0, 0}), std::memory_order_release);
@@ -62,12 +65,14 @@ public:
     // The memory into which the caller writes the claimed payload with plain stores. A lossy reader that is lapped at
     // that moment may copy a mixture of old and new bytes. It then discards the copy (see extend()).
     [[nodiscard]] std::uint8_t* payload() const noexcept {
+        assert(record_ != nullptr);
         return reinterpret_cast<std::uint8_t*>(record_ + header_words);
     }
 
     // Fills the payload through atomic words instead. Each store releases and pairs with the acquire in
     // Consumer::copy_payload().
     void store_payload(ByteView bytes) noexcept {
+        assert(record_ != nullptr && bytes.size() <= claimed_);
         auto* word = record_ + header_words;
         const std::uint8_t* from = bytes.data();
         const std::uint8_t* const end = from + bytes.size();
@@ -84,10 +89,12 @@ public:
 
     // Publishes the first `length` bytes of the claim. `length` must not exceed the claimed length.
     void commit(const RecordInfo& info, std::size_t length) noexcept {
+        assert(record_ != nullptr && length <= claimed_ && start_ >= tail_);
         auto& control = *ring_.control;
         store_header(info, length);
         const std::uint64_t end = start_ + record_size(length), sequence = ++sequence_;
         if (end >= next_mark_) set_marks(end);
+        assert(end <= limit_ && end < next_mark_);
         control.records.store(sequence, std::memory_order_relaxed);
         tail_ = end;
         control.tail.store(
@@ -127,15 +134,15 @@ public:
         control.room_wanted.store(0, std::memory_order_relaxed);
     }
 
-    // Wakes all sleeping readers, at most once per `wake_distance`. If the last wake-up is more recent than that, does
+    // Wakes all sleeping readers, at most once per `wake_interval`. If the last wake-up is more recent than that, does
     // nothing. A wake-up clears all bits, so a reader whose bit is set has set it after the last wake-up. It wakes by
-    // itself, because its first sleep with the bit set lasts at most `wake_distance` (Consumer::sleep()). For the same
+    // itself, because its first sleep with the bit set lasts at most `wake_interval` (Consumer::sleep()). For the same
     // reason, commit() need not order its load of `sleepers` after its store of `tail`. A reader that it overlooks
     // checks again by itself.
     [[gnu::noinline]] void wake_readers() noexcept {
         const MonoTime now = Words::now();
         if (now < next_wake_) return;
-        next_wake_ = now + wake_distance;
+        next_wake_ = now + wake_interval;
         wake_readers_now();
     }
     void wake_readers_now() noexcept {
@@ -152,6 +159,7 @@ private:
     [[nodiscard, gnu::noinline]] bool claim_farther(std::uint64_t size) noexcept {
         const std::uint64_t left = ring_.left_in_lap(tail_);
         const std::uint64_t padding = size <= left ? 0 : left;
+        assert(padding < size);
         const std::uint64_t end = tail_ + padding + size;
         if (end > limit_ && !extend(end)) return false;
         if (padding != 0) store_state(tail_, {static_cast<std::int32_t>(padding), 0, 0, padding_flag});
@@ -162,6 +170,7 @@ private:
 
     // Loads the last `count` bytes (fewer than a word), padded with zeros.
     [[nodiscard]] static std::uint64_t load_rest(ByteView bytes, std::size_t count) noexcept {
+        assert(count != 0 && count < sizeof(std::uint64_t) && count <= bytes.size());
         if (bytes.size() >= sizeof(std::uint64_t))
             return load_le<std::uint64_t>(bytes.data() + bytes.size() - sizeof(std::uint64_t)) >>
                    8 * (sizeof(std::uint64_t) - count);
@@ -209,6 +218,7 @@ private:
             wanted = std::min(wanted, held_limit());
         }
         limit_ = std::max(limit_, wanted);
+        assert(limit_ <= intent_ && intent_ - tail_ <= ring_.capacity);
         return wanted >= end;
     }
 

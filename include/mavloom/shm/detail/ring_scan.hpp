@@ -5,6 +5,7 @@
 // nothing.
 #pragma once
 
+#include <cassert>
 #include <optional>
 
 #include "mavloom/shm/layout.hpp"
@@ -12,7 +13,7 @@
 namespace mavloom::shm::detail {
 
 // Minimum time between two wake-ups of the readers by the writer.
-inline constexpr Nanoseconds wake_distance = std::chrono::milliseconds(1);
+inline constexpr Nanoseconds wake_interval = std::chrono::milliseconds(1);
 
 struct Header {
     RecordState state;
@@ -63,6 +64,7 @@ template <class Words>
 template <class Words>
 [[nodiscard, gnu::always_inline]] inline std::uint64_t load_record(const RingMemory<Words>& ring, std::uint64_t position,
                                                                    std::uint64_t end, Header& header) noexcept {
+    assert(position < end && end - position <= ring.left_in_lap(position));
     const auto* word = ring.word(position);
     header.state = unpack(word[0].load(std::memory_order_acquire));
     const auto length = static_cast<std::uint32_t>(header.state.length);

@@ -4,6 +4,9 @@
 // Values, bits and their names are those of PX4 1.17.
 #pragma once
 
+#include <iterator>
+#include <span>
+
 #include "flight/firmware/parameters.hpp"
 
 namespace mavloom::flight {
@@ -467,48 +470,8 @@ inline constexpr ParamChoice sens_mag_sides_values[] = {
     {34, "Two side calibration"}, {38, "Three side calibration"}, {63, "Six side calibration"}};
 inline constexpr ParamChoice sensor_priorities[] = {{-1, "Uninitialized"},    {0, "Disabled"}, {1, "Min"},  {25, "Low"},
                                                     {50, "Medium (Default)"}, {75, "High"},    {100, "Max"}};
-inline constexpr ParamChoice sensor_rotations[] = {{-1, "Internal"},
-                                                   {0, "No rotation"},
-                                                   {1, "Yaw 45"},
-                                                   {2, "Yaw 90"},
-                                                   {3, "Yaw 135"},
-                                                   {4, "Yaw 180"},
-                                                   {5, "Yaw 225"},
-                                                   {6, "Yaw 270"},
-                                                   {7, "Yaw 315"},
-                                                   {8, "Roll 180"},
-                                                   {9, "Roll 180, Yaw 45"},
-                                                   {10, "Roll 180, Yaw 90"},
-                                                   {11, "Roll 180, Yaw 135"},
-                                                   {12, "Pitch 180"},
-                                                   {13, "Roll 180, Yaw 225"},
-                                                   {14, "Roll 180, Yaw 270"},
-                                                   {15, "Roll 180, Yaw 315"},
-                                                   {16, "Roll 90"},
-                                                   {17, "Roll 90, Yaw 45"},
-                                                   {18, "Roll 90, Yaw 90"},
-                                                   {19, "Roll 90, Yaw 135"},
-                                                   {20, "Roll 270"},
-                                                   {21, "Roll 270, Yaw 45"},
-                                                   {22, "Roll 270, Yaw 90"},
-                                                   {23, "Roll 270, Yaw 135"},
-                                                   {24, "Pitch 90"},
-                                                   {25, "Pitch 270"},
-                                                   {26, "Pitch 180, Yaw 90"},
-                                                   {27, "Pitch 180, Yaw 270"},
-                                                   {28, "Roll 90, Pitch 90"},
-                                                   {29, "Roll 180, Pitch 90"},
-                                                   {30, "Roll 270, Pitch 90"},
-                                                   {31, "Roll 90, Pitch 180"},
-                                                   {32, "Roll 270, Pitch 180"},
-                                                   {33, "Roll 90, Pitch 270"},
-                                                   {34, "Roll 180, Pitch 270"},
-                                                   {35, "Roll 270, Pitch 270"},
-                                                   {36, "Roll 90, Pitch 180, Yaw 90"},
-                                                   {37, "Roll 90, Yaw 270"},
-                                                   {38, "Roll 90, Pitch 68, Yaw 293"},
-                                                   {39, "Pitch 315"},
-                                                   {40, "Roll 90, Pitch 315"}};
+// As `mag_rotations`, without the custom angle.
+inline constexpr auto sensor_rotations = std::span(mag_rotations).first<std::size(mag_rotations) - 1>();
 inline constexpr ParamChoice sih_vehicle_type_values[] = {{0, "Quadcopter"}, {1, "Fixed-Wing"},
                                                           {2, "Tailsitter"}, {3, "Standard VTOL"},
                                                           {4, "Hexacopter"}, {5, "Rover Ackermann"}};

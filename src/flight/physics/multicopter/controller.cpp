@@ -16,18 +16,18 @@ const Vector3 learning_gains{0.4, 0.4, 2.0};    // 1/s^2
 const Vector3 attitude_gains{6.5, 6.5, 2.8};    // 1/s
 const Vector3 rate_gains{20, 20, 14};           // 1/s
 const Vector3 fastest_rates{3.84, 3.84, 3.49};  // rad/s; MC_ROLLRATE_MAX 220 deg/s, MC_YAWRATE_MAX 200 deg/s
-constexpr double most_learned = 4;              // m/s^2
-constexpr double least_thrust = 0.1;            // of gravity: the vehicle keeps some thrust, so that it can steer
-constexpr double most_thrust = 0.95;            // of the full thrust
+constexpr double max_learned = 4;               // m/s^2
+constexpr double min_thrust = 0.1;              // of gravity: the vehicle keeps some thrust, so that it can steer
+constexpr double max_thrust = 0.95;             // of the full thrust
 
 Vector3 clamped(const Vector3& value, const Vector3& limit) { return value.cwiseMax(-limit).cwiseMin(limit); }
 
 // The specific force (m/s^2) that accelerates so, within the limits of tilt and thrust. Height comes first.
 Vector3 force_for(const Vector3& acceleration, double tilt) {
     Vector3 force = acceleration - Vector3(0, 0, gravity);
-    force.z() = std::clamp(force.z(), -most_thrust * full_thrust, -least_thrust * gravity);
-    const double most_sideways = std::sqrt(std::pow(most_thrust * full_thrust, 2) - force.z() * force.z());
-    force.head<2>() = limited(Eigen::Vector2d(force.head<2>()), std::min(-force.z() * std::tan(tilt), most_sideways));
+    force.z() = std::clamp(force.z(), -max_thrust * full_thrust, -min_thrust * gravity);
+    const double max_sideways = std::sqrt(std::pow(max_thrust * full_thrust, 2) - force.z() * force.z());
+    force.head<2>() = limited(Eigen::Vector2d(force.head<2>()), std::min(-force.z() * std::tan(tilt), max_sideways));
     return force;
 }
 
@@ -75,7 +75,7 @@ Vector3 Controller::wanted_acceleration(const MotionTarget& target, const Vector
         if (!std::isfinite(velocity[axis])) continue;
         const double error = velocity[axis] - motion.velocity[axis];
         const double learned = learned_[axis] + learning_gains[axis] * error * step_s;
-        learned_[axis] = std::clamp(learned, -most_learned, most_learned);
+        learned_[axis] = std::clamp(learned, -max_learned, max_learned);
         acceleration[axis] += velocity_gains[axis] * error + learned_[axis];
     }
     return acceleration;

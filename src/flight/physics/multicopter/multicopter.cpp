@@ -33,10 +33,6 @@ bool leads_up(const Setpoint& setpoint, double z) noexcept {
     return setpoint.acceleration.z() < -0.5;
 }
 
-bool steers_by_path(Steering steering) noexcept {
-    return steering == Steering::trajectory || steering == Steering::waypoint || steering == Steering::circle;
-}
-
 }  // namespace
 
 void Multicopter::place(const Vector3& position, double heading) {

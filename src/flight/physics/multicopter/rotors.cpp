@@ -9,12 +9,12 @@ namespace {
 
 // Signs with which each motor's thrust turns the vehicle: to the right, nose up, clockwise.
 constexpr std::array<double, Rotors::count> rolls{-1, 1, 1, -1}, pitches{1, -1, 1, -1}, yaws{1, 1, -1, -1};
-constexpr double most_yaw = 0.15;  // share of the outputs that yaw may take
+constexpr double max_yaw = 0.15;  // share of the outputs that yaw may take
 
 }  // namespace
 
 void Rotors::step(const Moments& wanted, double lag_share) noexcept {
-    const double yaw = std::clamp(wanted.yaw, -most_yaw, most_yaw);
+    const double yaw = std::clamp(wanted.yaw, -max_yaw, max_yaw);
     for (std::size_t i = 0; i < count; ++i)
         outputs_[i] = wanted.thrust + rolls[i] * wanted.roll + pitches[i] * wanted.pitch + yaws[i] * yaw;
     const double shift = std::min(1 - std::ranges::max(outputs_), 0.0);

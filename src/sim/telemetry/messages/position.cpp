@@ -10,15 +10,6 @@
 
 namespace mavloom::sim {
 
-namespace {
-
-// GLOBAL_POSITION_INT.alt less GLOBAL_POSITION_INT.relative_alt is HOME_POSITION.altitude, to the millimetre.
-double home_altitude(const Flight& flight) noexcept {
-    return flight.home() ? flight.home()->altitude : flight.ground_altitude();
-}
-
-}  // namespace
-
 // A multicopter or rover has no airspeed sensor; it reports its ground speed, so that displays show a number.
 double airspeed_of(const View& view) noexcept {
     const Vector3& velocity = view.flight.estimate().velocity;
@@ -30,7 +21,7 @@ double height_of(const View& view) {
     return std::max(view.flight.position().altitude - view.flight.ground_altitude(), 0.0);
 }
 
-double relative_altitude_of(const View& view) { return view.flight.position().altitude - home_altitude(view.flight); }
+double relative_altitude_of(const View& view) { return view.flight.position().altitude - view.flight.home_altitude(); }
 
 bool write_local_position_ned(const View& view, ByteSpan payload) {
     if (!view.flight.has_origin()) return false;
@@ -54,7 +45,7 @@ bool write_global_position_int(const View& view, ByteSpan payload) {
                                       .lat = to_degrees_e7(position.latitude),
                                       .lon = to_degrees_e7(position.longitude),
                                       .alt = altitude,
-                                      .relative_alt = altitude - to_mm(home_altitude(view.flight)),
+                                      .relative_alt = altitude - to_mm(view.flight.home_altitude()),
                                       .vx = to_cm_s(estimate.velocity.x()),
                                       .vy = to_cm_s(estimate.velocity.y()),
                                       .vz = to_cm_s(estimate.velocity.z()),

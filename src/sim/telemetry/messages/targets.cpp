@@ -27,10 +27,6 @@ Trajectory at_rest(const Flight& flight) noexcept {
     return {.acceleration = {0, 0, 100}, .yaw = flight.estimate().euler.yaw, .yaw_rate = 0};
 }
 
-bool has_trajectory(Steering steering) noexcept {
-    return steering == Steering::trajectory || steering == Steering::waypoint || steering == Steering::circle;
-}
-
 // Inner loops that move a point along the path report it; otherwise the goal itself is the target.
 Trajectory trajectory_of(const Flight& flight) noexcept {
     const Setpoint& setpoint = flight.setpoint();
@@ -95,6 +91,11 @@ double seconds_to_return(const View& view) {
            over(top - slow, tuning.descent_speed) + over(slow, tuning.land_speed);
 }
 
+// Of PX4's controllers, only those of planes and rovers publish these values. Vehicles that move at random send all.
+bool has_nav_controller(const View& view) noexcept {
+    return !view.firmware.is_px4() || view.options.kind != Kind::quad || view.options.motion == Motion::random;
+}
+
 }  // namespace
 
 // Disarmed, the controllers aim at level flight with the present heading.
@@ -115,7 +116,7 @@ bool write_attitude_target(const View& view, ByteSpan payload) {
 
 bool write_position_target_local_ned(const View& view, ByteSpan payload) {
     const Steering steering = view.flight.setpoint().steering;
-    if (view.flight.armed() && steering != Steering::none && !has_trajectory(steering)) return false;
+    if (view.flight.armed() && steering != Steering::none && !steers_by_path(steering)) return false;
     const Trajectory trajectory = trajectory_of(view.flight);
     PositionTargetLocalNed message{.time_boot_ms = boot_ms(view),
                                    .coordinate_frame = MAV_FRAME_LOCAL_NED,
@@ -143,7 +144,7 @@ bool write_position_target_global_int(const View& view, ByteSpan payload) {
 
 bool write_nav_controller_output(const View& view, ByteSpan payload) {
     const auto target = navigation_target(view);
-    if (!target) return false;
+    if (!target || !has_nav_controller(view)) return false;
     const InnerTargets& inner = view.flight.airframe().targets();
     const Euler attitude = to_euler(inner.attitude);
     const Vector3 way = target->position - view.flight.estimate().position;

@@ -45,8 +45,9 @@ def fly_to(*place):
 
 thread = threading.Thread(target=stream, daemon=True)
 thread.start()
-time.sleep(1)
-print("offboard", command(mavutil.mavlink.MAV_CMD_DO_SET_MODE, 1, 6))
+while (offboard := command(mavutil.mavlink.MAV_CMD_DO_SET_MODE, 1, 6)) != "MAV_RESULT_ACCEPTED":
+    pass  # PX4 refuses until it has set-points
+print("offboard", offboard)
 print("arm", command(mavutil.mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 1))
 px4.motors_armed_wait()
 for corner in ((0, 0, -5), (8, 0, -5), (8, 8, -5), (0, 0, -5)):

@@ -393,28 +393,28 @@ TEST_F(FileService, EndsABurstAfter168RepliesAsPx4Does) {
 
 TEST_F(FileService, ReadsAGapWhileABurstRuns) {
     ASSERT_TRUE(ftp.ask(MAV_FTP_OPCODE_OPENFILERO, "/etc/extras/parameters.json.xz").is_ack());
-    rig.sink.queued[1] = 100'000;
+    rig.sink.full = {1};
     ftp.send(MAV_FTP_OPCODE_BURSTREADFILE, {}, 0, 0, 239);
     rig.run(0.1);
     rig.forget();
 
     EXPECT_EQ(ftp.ask(MAV_FTP_OPCODE_READFILE, Bytes{}, 0, 239, 100).data.size(), 100u);
     EXPECT_EQ(ftp.replies().size(), 1u) << "the burst waits while the link's queue is long";
-    rig.sink.queued[1] = 0;
+    rig.sink.full = {};
     rig.run(0.5);
     EXPECT_EQ(ftp.replies().back().error(), MAV_FTP_ERR_EOF);
 }
 
 TEST_F(FileService, DoesNotRestartABurstThatRuns) {
     ASSERT_TRUE(ftp.ask(MAV_FTP_OPCODE_OPENFILERO, "/etc/extras/parameters.json.xz").is_ack());
-    rig.sink.queued[1] = 100'000;
+    rig.sink.full = {1};
     ftp.send(MAV_FTP_OPCODE_BURSTREADFILE, {}, 0, 0, 239);
     rig.run(0.5);
     --ftp.seq;
     ftp.send(MAV_FTP_OPCODE_BURSTREADFILE, {}, 0, 0, 239);
     rig.forget();
 
-    rig.sink.queued[1] = 0;
+    rig.sink.full = {};
     rig.run(0.5);
 
     std::set<std::uint32_t> offsets;

@@ -21,9 +21,9 @@ const Firmware& px4() { return Firmware::of(Autopilot::px4, Kind::quad); }
 
 std::string decompress(ByteView xz) {
     std::string out(4'000'000, '\0');
-    std::uint64_t most_memory = 1 << 24;  // a ground station has little
+    std::uint64_t max_memory = 1 << 24;  // a ground station has little
     std::size_t read = 0, written = 0;
-    const auto status = lzma_stream_buffer_decode(&most_memory, 0, nullptr, xz.data(), &read, xz.size(),
+    const auto status = lzma_stream_buffer_decode(&max_memory, 0, nullptr, xz.data(), &read, xz.size(),
                                                   reinterpret_cast<std::uint8_t*>(out.data()), &written, out.size());
     EXPECT_EQ(status, LZMA_OK);
     out.resize(written);

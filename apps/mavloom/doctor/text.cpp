@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "doctor/reports.hpp"
+#include "mavloom/base/counted.hpp"
+#include "mavloom/base/shown.hpp"
+#include "mavloom/base/source_text.hpp"
+#include "mavloom/dialect/entry_name.hpp"
+
+namespace mavloom::app {
+
+namespace {
+
+using observe::Finding;
+
+// Breaks lines at spaces. A word that is too long stays whole.
+class Paragraphs {
+public:
+    Paragraphs(std::string& out, int width) : out_(out), width_(static_cast<std::size_t>(std::max(width, 20))) {}
+
+    // The first line begins with `head`; the others are indented as far as `indent`.
+    void add(std::string_view head, std::string_view text, std::size_t indent) {
+        std::string line(head);
+        bool is_begun = false;
+        for (std::size_t at = 0; at < text.size();) {
+            auto end = std::min(text.find(' ', at), text.size());
+            if (text.substr(end).starts_with(" %")) end = std::min(text.find(' ', end + 1), text.size());
+            const auto word = text.substr(at, end - at);
+            if (is_begun && line.size() + 1 + word.size() > width_) {
+                out_ += line + "\n";
+                line.assign(indent, ' ');
+                is_begun = false;
+            }
+            if (is_begun) line += ' ';
+            line += word;
+            is_begun = true;
+            at = end + 1;
+        }
+        out_ += line + "\n";
+    }
+
+private:
+    std::string& out_;
+    std::size_t width_;
+};
+
+std::string kind_of_sender(const observe::Evidence& evidence, Source source) {
+    constexpr std::uint8_t no_autopilot = 8;  // MAV_AUTOPILOT_INVALID
+    const auto vehicle = std::ranges::find(evidence.vehicles, source, &observe::Vehicle::source);
+    if (vehicle == evidence.vehicles.end()) return {};
+    const auto name = [&](std::string_view of, std::uint8_t value) {
+        return std::string(dialect::short_entry_name(*evidence.dialect, of, value));
+    };
+    const auto type = name("MAV_TYPE", vehicle->type);
+    if (vehicle->autopilot == no_autopilot) return fmt::format(" ({})", type);
+    return fmt::format(" ({} {})", name("MAV_AUTOPILOT", vehicle->autopilot), type);
+}
+
+std::string senders_text(const observe::Evidence& evidence, std::size_t source) {
+    constexpr std::size_t most = 8;
+    const auto& senders = evidence.senders[source];
+    std::string text;
+    for (std::size_t i = 0; i < std::min(senders.size(), most); ++i)
+        text += fmt::format("{}{}{}", text.empty() ? "" : ", ", source_text(senders[i].source),
+                            kind_of_sender(evidence, senders[i].source));
+    return senders.size() <= most ? text : fmt::format("{} and {} more", text, senders.size() - most);
+}
+
+std::string time_text(Nanoseconds time) {
+    const auto seconds = std::chrono::duration<double>(time).count();
+    return seconds < 120 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.0f} min", seconds / 60);
+}
+
+std::string source_line(const observe::Evidence& evidence, std::size_t i) {
+    const auto& source = evidence.sources[i];
+    const auto frames = source.count("frames_in");
+    if (!source.refusal.empty()) return source.name + ": not opened";
+    if (frames == 0) return fmt::format("{}: nothing in {}", source.name, time_text(source.duration));
+    return fmt::format("{}: {} in {} of {}", source.name, counted(frames, "frame"), time_text(source.duration),
+                       senders_text(evidence, i));
+}
+
+void add_sources(Paragraphs& out, const observe::Evidence& evidence) {
+    for (std::size_t i = 0; i < evidence.sources.size(); ++i) out.add("", printable(source_line(evidence, i)), 2);
+}
+
+std::string passage_text(const observe::Evidence& evidence, std::size_t first, const observe::Passage& passage) {
+    const auto &a = evidence.sources[first].name, &b = evidence.sources[first + 1].name;
+    const auto sender = source_text(passage.source);
+    if (!passage.is_comparable)
+        return fmt::format("{} sends other frames to {} than to {}, so these cannot be compared.", sender, a, b);
+    std::string text = passage.lost + passage.filtered == 0
+                           ? fmt::format("Nothing is lost between {} and {}: all {} of {} came through.", a, b,
+                                         counted(passage.before, "frame"), sender)
+                           : fmt::format("Between {} and {}, {} of {} of {} did not come through.", a, b,
+                                         passage.lost + passage.filtered, counted(passage.before, "frame"), sender);
+    if (passage.added != 0) text += fmt::format(" {} came only to {}.", counted(passage.added, "frame"), b);
+    return text;
+}
+
+void add_passages(Paragraphs& out, const observe::Evidence& evidence) {
+    for (std::size_t i = 0; i < evidence.passages.size(); ++i)
+        for (const auto& passage : evidence.passages[i]) out.add("", printable(passage_text(evidence, i, passage)), 2);
+}
+
+void add_finding(std::string& out, const Finding& finding, TextStyle style) {
+    const auto* const color = finding.severity == Finding::Severity::error ? "\x1b[1;31m" : "\x1b[1;33m";
+    out += '\n';
+    out += style.has_color ? fmt::format("{}{}\x1b[0m", color, finding.id) : std::string(finding.id);
+    out += "  " + printable(finding.where) + "\n";
+    Paragraphs paragraphs(out, style.width);
+    paragraphs.add("  ", printable(finding.what), 2);
+    if (!finding.why.empty()) paragraphs.add("  Why: ", printable(finding.why), 7);
+    if (!finding.remedy.empty()) paragraphs.add("  Do:  ", printable(finding.remedy), 7);
+}
+
+}  // namespace
+
+std::string doctor_text(const observe::Evidence& evidence, std::span<const Finding> findings, TextStyle style) {
+    std::string out;
+    Paragraphs paragraphs(out, style.width);
+    add_sources(paragraphs, evidence);
+    add_passages(paragraphs, evidence);
+    for (const auto& finding : findings) add_finding(out, finding, style);
+    out += findings.empty() ? "Nothing is wrong.\n" : fmt::format("\n{}.\n", counted(findings.size(), "finding"));
+    return out;
+}
+
+}  // namespace mavloom::app

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "manual/candidates.hpp"
+
+#include <algorithm>
+
+#include "mavloom/endpoint/schemes.hpp"
+
+namespace mavloom::app {
+
+namespace {
+
+// Where the words so far lead.
+struct Place {
+    std::vector<const DeclaredCommand*> commands;  // from the program to the innermost
+    const DeclaredOption* open = nullptr;          // the option that takes the next word
+    std::size_t positionals = 0;                   // that were given to the innermost
+    bool only_positionals = false;                 // after "--"
+
+    [[nodiscard]] const DeclaredCommand& innermost() const { return *commands.back(); }
+};
+
+const DeclaredOption* find_option(const Place& place, std::string_view name) {
+    for (const auto* command : place.commands)
+        for (const auto& option : command->options)
+            if (std::ranges::find(option.names, name) != option.names.end()) return &option;
+    return nullptr;
+}
+
+void take_option(Place& place, const std::string& word) {
+    place.only_positionals = word == "--";
+    const auto* const option = find_option(place, word);
+    if (option != nullptr && !option->placeholder.empty()) place.open = option;
+}
+
+void take(Place& place, const std::string& word) {
+    if (place.open != nullptr) return void(place.open = nullptr);
+    if (!place.only_positionals && word.starts_with('-')) return take_option(place, word);
+    const auto& subs = place.innermost().subcommands;
+    const auto sub = std::ranges::find(subs, word, &DeclaredCommand::name);
+    if (sub == subs.end()) return void(++place.positionals);
+    place.commands.push_back(&*sub);
+    place.positionals = 0;
+}
+
+// Returns the positional argument that takes the next word, or null. The last one may take several words.
+const DeclaredOption* next_positional(const Place& place) {
+    const DeclaredOption* last = nullptr;
+    std::size_t i = 0;
+    for (const auto& option : place.innermost().options) {
+        if (!option.is_positional) continue;
+        last = &option;
+        if (i++ == place.positionals) return last;
+    }
+    return last != nullptr && last->is_repeatable ? last : nullptr;
+}
+
+void add(Candidates& out, const std::vector<std::string>& words, const std::string& before = {},
+         const std::string& after = {}) {
+    for (const auto& word : words) out.all.push_back({before + word + after});
+}
+
+void add_endpoints(Candidates& out, const Vocabulary& vocabulary) {
+    for (const auto& row : endpoint::scheme_rows)
+        out.all.push_back({std::string(row.name) + "://", std::string(row.help)});
+    add(out, vocabulary.rings(), "shm://");
+    out.and_files = true;
+}
+
+// Names are separated by commas; `typed` may have some already.
+void add_messages(Candidates& out, const std::string& typed, const std::string& after, const Vocabulary& vocabulary) {
+    const auto comma = typed.rfind(',');
+    add(out, vocabulary.messages(), comma == std::string::npos ? "" : typed.substr(0, comma + 1), after);
+}
+
+bool is_in(const Place& place, std::string_view command) {
+    return std::ranges::find(place.commands, command, &DeclaredCommand::name) != place.commands.end();
+}
+
+void add_names(Candidates& out, const Place& place, const DeclaredOption& option, const Vocabulary& vocabulary) {
+    if (is_in(place, "dialect")) return add(out, vocabulary.messages());
+    if (is_in(place, "shm")) return add(out, vocabulary.rings());
+    if (option.is_positional && (is_in(place, "ctl") || is_in(place, "stat"))) add(out, vocabulary.running());
+}
+
+// Adds the words that fit the placeholder of the option.
+void add_values(Candidates& out, const Place& place, const DeclaredOption& option, const std::string& typed,
+                const Vocabulary& vocabulary) {
+    const std::string_view placeholder = option.placeholder;
+    if (!option.choices.empty()) return add(out, option.choices);
+    if (placeholder == "ENDPOINT" || placeholder == "SOURCE") return add_endpoints(out, vocabulary);
+    if (placeholder == "MESSAGE:HZ") return add_messages(out, typed, ":", vocabulary);
+    if (placeholder == "MESSAGE.FIELD=VALUE") return add_messages(out, typed, ".", vocabulary);
+    if (placeholder.find("MESSAGE") != placeholder.npos || placeholder == "NAMES")
+        return add_messages(out, typed, "", vocabulary);
+    if (placeholder == "NAME") return add_names(out, place, option, vocabulary);
+    if (placeholder == "COMMAND")
+        for (const auto& command : place.commands.front()->subcommands)
+            out.all.push_back({command.name, command.description});
+    out.and_files = placeholder.find("FILE") != placeholder.npos || placeholder.ends_with(".toml");
+}
+
+void add_options(Candidates& out, const Place& place) {
+    for (const auto* command : place.commands)
+        for (const auto& option : command->options)
+            if (!option.is_positional) out.all.push_back({option.names.back(), option.description});
+}
+
+void add_free_word(Candidates& out, const Place& place, const std::string& typed, const Vocabulary& vocabulary) {
+    for (const auto& sub : place.innermost().subcommands) out.all.push_back({sub.name, sub.description});
+    if (const auto* const option = next_positional(place)) add_values(out, place, *option, typed, vocabulary);
+}
+
+// "--max-rate=ATT": what follows the name of the option.
+void add_after_equals(Candidates& out, const Place& place, const std::string& typed, const Vocabulary& vocabulary) {
+    const auto equals = typed.find('=');
+    const auto* const option = find_option(place, typed.substr(0, equals));
+    if (option == nullptr) return;
+    add_values(out, place, *option, typed.substr(equals + 1), vocabulary);
+    for (auto& candidate : out.all) candidate.word.insert(0, typed.substr(0, equals + 1));
+    out.and_files = false;
+}
+
+}  // namespace
+
+Candidates candidates(const DeclaredCommand& program, std::span<const std::string> words, const Vocabulary& vocabulary) {
+    Place place{{&program}};
+    const std::string typed = words.empty() ? "" : words.back();
+    if (!words.empty())
+        for (const auto& word : words.first(words.size() - 1)) take(place, word);
+    Candidates out;
+    const bool is_option = !place.only_positionals && typed.starts_with('-');
+    if (place.open != nullptr) add_values(out, place, *place.open, typed, vocabulary);
+    else if (is_option && typed.find('=') != typed.npos) add_after_equals(out, place, typed, vocabulary);
+    else if (is_option) add_options(out, place);
+    else add_free_word(out, place, typed, vocabulary);
+    std::erase_if(out.all, [&](const Candidate& candidate) { return !candidate.word.starts_with(typed); });
+    return out;
+}
+
+}  // namespace mavloom::app

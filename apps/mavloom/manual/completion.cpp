@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// `mavloom completion SHELL` prints a script that asks `mavloom completion words -- WORD...` at each key. So the shells
+// know no option by themselves.
+#include <fmt/format.h>
+
+#include "command.hpp"
+#include "manual/candidates.hpp"
+#include "mavloom/dialect/dialect.hpp"
+#include "mavloom/shm/ring_info.hpp"
+#include "output.hpp"
+
+namespace mavloom::app {
+
+namespace {
+
+// bash splits words at ":" and "=". bash-completion's functions join them again; without them, bash completes up to the
+// first of these.
+constexpr std::string_view bash =
+    R"sh(# eval "$(mavloom completion bash)", or as a file in /usr/share/bash-completion/completions/mavloom
+_mavloom() {
+  local cur words cword line
+  COMPREPLY=()
+  if declare -F _get_comp_words_by_ref >/dev/null; then
+    _get_comp_words_by_ref -n ':=' cur words cword
+  else
+    cur=${COMP_WORDS[COMP_CWORD]} words=("${COMP_WORDS[@]}") cword=$COMP_CWORD
+  fi
+  while IFS= read -r line; do
+    if [[ $line == :files ]]; then
+      compopt -o filenames
+      while IFS= read -r line; do COMPREPLY+=("$line"); done < <(compgen -f -- "$cur")
+    else
+      COMPREPLY+=("${line%%$'\t'*}")
+    fi
+  done < <(mavloom completion words -- "${words[@]:1:cword}" 2>/dev/null)
+  [[ ${#COMPREPLY[@]} == 1 && ${COMPREPLY[0]} == *[:/=.,] ]] && compopt -o nospace
+  if declare -F __ltrim_colon_completions >/dev/null; then __ltrim_colon_completions "$cur"; fi
+}
+complete -F _mavloom mavloom
+)sh";
+
+constexpr std::string_view zsh = R"sh(#compdef mavloom
+# As the file _mavloom in a folder of $fpath, or: source <(mavloom completion zsh)
+_mavloom() {
+  local line files=
+  local -a found described
+  for line in "${(@f)$(mavloom completion words -- "${(@)words[2,CURRENT]}" 2>/dev/null)}"; do
+    [[ -z $line ]] && continue
+    if [[ $line == :files ]]; then files=yes; continue; fi
+    found+=("${line%%$'\t'*}")
+    described+=("${line/$'\t'/  -- }")
+  done
+  (( $#found )) && compadd -S '' -l -d described -a found
+  [[ -n $files ]] && _files
+}
+if [[ $funcstack[1] == _mavloom ]]; then _mavloom "$@"; else compdef _mavloom mavloom; fi
+)sh";
+
+constexpr std::string_view fish = R"sh(# mavloom completion fish | source, or as the file mavloom.fish in a folder of completions
+function __mavloom_complete
+    set -l typed (commandline -ct)
+    for line in (mavloom completion words -- (commandline -opc)[2..-1] "$typed" 2>/dev/null)
+        if test "$line" = :files
+            __fish_complete_path "$typed"
+        else
+            echo $line
+        end
+    end
+end
+complete -c mavloom -f -a '(__mavloom_complete)'
+)sh";
+
+struct CompletionOptions {
+    std::string shell;
+    std::vector<std::string> words;
+};
+
+std::vector<std::string> message_names() {
+    std::vector<std::string> names;
+    for (const auto& message : dialect::default_dialect().messages()) names.emplace_back(message.name);
+    return names;
+}
+
+Exit print_words(const Arguments& self, const std::vector<std::string>& words) {
+    const auto found = candidates(self.program(), words, {message_names, shm::ring_names, shm::counter_page_names});
+    std::string text;
+    for (const auto& candidate : found.all)
+        text += candidate.word + (candidate.description.empty() ? "" : "\t" + candidate.description) + "\n";
+    if (found.and_files) text += ":files\n";
+    return print_at_end(text, Exit::done);
+}
+
+}  // namespace
+
+Run declare_completion(Arguments command, const Common& /*common*/) {
+    auto options = std::make_shared<CompletionOptions>();
+    command.add_option("shell", "SHELL", options->shell, "the shell; words: what may follow the words after --")
+        .required()
+        .members({"bash", "zsh", "fish", "words"});
+    command.add_option("words", "WORD", options->words,
+                       "the words of a command line without mavloom, the last unfinished");
+    command.footer(
+        "bash: eval \"$(mavloom completion bash)\"\n"
+        "zsh:  source <(mavloom completion zsh)\n"
+        "fish: mavloom completion fish | source");
+    return [options, command] {
+        if (options->shell == "words") return print_words(command, options->words);
+        return print_at_end(options->shell == "bash" ? bash : options->shell == "zsh" ? zsh : fish, Exit::done);
+    };
+}
+
+}  // namespace mavloom::app

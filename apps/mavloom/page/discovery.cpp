@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "page/discovery.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "mavloom/endpoint/endpoint.hpp"
+#include "mavloom/link/links.hpp"
+#include "mavloom/net/port_holder.hpp"
+#include "mavloom/net/udp.hpp"
+#include "mavloom/shm/counter_page.hpp"
+
+namespace mavloom::app {
+
+Running find_running() {
+    Running running;
+    for (const auto& name : shm::ring_names())
+        if (auto ring = shm::ring_status(name); ring && ring->writer_alive && !ring->damaged && !ring->retired)
+            running.rings.push_back(std::move(*ring));
+    for (const auto& name : shm::counter_page_names()) {
+        const auto page = shm::read_counters(name, {.user = link::Links::owner_of_inlets()});
+        if (page && page->owner_alive &&
+            std::ranges::find(running.rings, name, &shm::RingStatus::name) == running.rings.end())
+            running.without_ring.push_back(name);
+    }
+    return running;
+}
+
+std::string ring_hint(const std::string& program, std::string_view port) {
+    if (port.empty())
+        return fmt::format("{0} has no ring, so its messages are not shown: start it with --ring {0}", program);
+    return fmt::format(
+        "{0} has no ring, so only those of its messages are shown that it sends to {1}: to see all, start "
+        "it with --ring {0}",
+        program, port);
+}
+
+std::vector<std::string> lines_of(const Running& running, std::string_view port) {
+    std::vector<std::string> lines;
+    lines.reserve(running.rings.size() + running.without_ring.size());
+    for (const auto& ring : running.rings)
+        lines.push_back(fmt::format("found the ring {} of process {}", ring.name, ring.writer_pid));
+    for (const auto& name : running.without_ring)
+        lines.push_back(fmt::format("found {}, and shows its counters; {}", name, ring_hint(name, port)));
+    return lines;
+}
+
+SetupResult<void> check_port(std::string_view source) {
+    const auto endpoint = endpoint::parse_endpoint(source);
+    const auto address = net::Address::parse(endpoint->address.host, endpoint->address.port);
+    auto socket = net::UdpSocket::open(*address, {});
+    if (socket) return {};
+    return net::BindErrors(net::Transport::udp).complete(std::move(socket.error()), *address);
+}
+
+SetupResult<Running> find_sources(const Common& common, std::vector<std::string>& sources, std::string_view usual) {
+    if (!sources.empty()) return {};
+    auto running = find_running();
+    const auto port = running.rings.empty() ? check_port(usual) : SetupResult<void>();
+    const bool listens = running.rings.empty() && port;
+    for (const auto& line : lines_of(running, listens ? usual : "")) print_notice(common, line);
+    for (const auto& ring : running.rings) sources.push_back("shm://" + ring.name);
+    if (listens) {
+        print_notice(common, fmt::format("no ring is in use; listening on {}", usual));
+        sources.emplace_back(usual);
+    }
+    if (port) return running;
+    const auto why = fmt::format("no ring is in use, and {}", port.error().text);
+    if (running.without_ring.empty())
+        return setup_error(port.error().code, why +
+                                                  "; end that program, or name another source, such as "
+                                                  "udpin://0.0.0.0:14551, and let the vehicle send there");
+    print_notice(common, why);
+    return running;
+}
+
+SetupResult<Running> find_sources(const Common& common, std::vector<std::string>& sources) {
+    const bool are_given = !sources.empty();
+    auto running = find_sources(common, sources, usual_source);
+    if (!are_given && sources == std::vector<std::string>{std::string(usual_source)} && check_port(second_source))
+        sources.emplace_back(second_source);
+    return running;
+}
+
+static bool is_ring_source(const std::string& source) {
+    const auto endpoint = endpoint::parse_endpoint(source);
+    return endpoint && endpoint->is_ring();
+}
+
+std::vector<HopReporter::Program> programs_of(const std::vector<std::string>& sources, const Running& running) {
+    std::string ports;
+    for (const auto& source : sources)
+        if (!is_ring_source(source)) ports += (ports.empty() ? "" : " or ") + source;
+    std::vector<HopReporter::Program> programs;
+    programs.reserve(running.without_ring.size() + sources.size());
+    for (const auto& name : running.without_ring) programs.push_back({name, ring_hint(name, ports)});
+    for (const auto& source : sources)
+        if (is_ring_source(source)) programs.push_back({endpoint::parse_endpoint(source)->path});
+    return programs;
+}
+
+}  // namespace mavloom::app

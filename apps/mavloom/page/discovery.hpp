@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Finds the rings, routers and simulators of this machine, as far as the user may read them.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "command.hpp"
+#include "mavloom/shm/ring_info.hpp"
+#include "page/hop_reporter.hpp"
+
+namespace mavloom::app {
+
+struct Running {
+    std::vector<shm::RingStatus> rings;     // that a program writes to
+    std::vector<std::string> without_ring;  // routers and simulators
+};
+
+[[nodiscard]] Running find_running();
+
+// Returns how to see all messages of a program without a ring. `port`: a source on which it may be heard; empty:
+// there is none.
+[[nodiscard]] std::string ring_hint(const std::string& program, std::string_view port);
+
+// One line for each: "found the ring px4 of process 4711". `port`: a source on which frames are heard; empty: there is
+// none.
+[[nodiscard]] std::vector<std::string> lines_of(const Running& running, std::string_view port);
+
+inline constexpr std::string_view usual_source = "udpin://0.0.0.0:14550", second_source = "udpin://0.0.0.0:14540";
+
+// Without sources: the rings of this machine; without rings, `usual`, a port. If programs without a ring run, whose
+// counters are shown in any case, a ground station may keep the port.
+[[nodiscard]] SetupResult<Running> find_sources(const Common& common, std::vector<std::string>& sources,
+                                                std::string_view usual);
+// The same for programs that also look at the port of PX4's link for companion computers, if it is free.
+[[nodiscard]] SetupResult<Running> find_sources(const Common& common, std::vector<std::string>& sources);
+// The error names the program, such as a ground station, that has the port of a udpin source.
+[[nodiscard]] SetupResult<void> check_port(std::string_view source);
+
+// Returns the programs whose counters are shown: the writers of the rings, and the programs without a ring.
+[[nodiscard]] std::vector<HopReporter::Program> programs_of(const std::vector<std::string>& sources,
+                                                            const Running& running);
+
+}  // namespace mavloom::app

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/http/session.hpp"
+
+#include <array>
+#include <utility>
+
+#include "http/frames.hpp"
+
+namespace mavloom::http {
+
+static_assert(net::BlockQueue::classes == 3);
+
+Session::Session(const SessionOptions& options, Peer peer, Orders orders)
+    : peer_(std::move(peer)), orders_(std::move(orders)), pack_bytes_(options.pack_bytes), queue_(options.queue) {}
+
+// If each block is a message, its first byte in the queue is its kind.
+void Session::push(ByteView block, std::uint8_t block_class, std::uint64_t key, MonoTime now, Kind kind) {
+    const std::lock_guard lock(mutex_);
+    if (has_ended_) return;
+    if (pack_bytes_ == 0) {
+        scratch_.assign(1, static_cast<std::uint8_t>(kind));
+        scratch_.insert(scratch_.end(), block.begin(), block.end());
+        block = scratch_;
+    }
+    const auto pushed = queue_.push(block, block_class, key, now);
+    if (pushed.dropped == 0) return;
+    counters_.dropped_full.add(pushed.dropped);
+    count_drops();
+}
+
+void Session::count_drops() {
+    for (std::size_t i = 0; i < counters_.dropped.size(); ++i) counters_.dropped[i].set(queue_.dropped()[i]);
+}
+
+void Session::flush() {
+    {
+        const std::lock_guard lock(mutex_);
+        if (is_writing_ || has_ended_ || queue_.empty()) return;
+        is_writing_ = true;
+    }
+    orders_.write();
+}
+
+std::size_t Session::take(std::vector<std::uint8_t>& output, std::size_t up_to, FrameWriter& writer, MonoTime now) {
+    const std::lock_guard lock(mutex_);
+    return take_some(output, up_to, now, [&] {
+        if (pack_bytes_ == 0) take_one(output, writer);
+        else take_packed(output, &writer);
+    });
+}
+
+std::size_t Session::take_unframed(std::vector<std::uint8_t>& output, std::size_t up_to, MonoTime now) {
+    const std::lock_guard lock(mutex_);
+    return take_some(output, up_to, now, [&] { take_packed(output, nullptr); });
+}
+
+template <class Append>
+std::size_t Session::take_some(std::vector<std::uint8_t>& output, std::size_t up_to, MonoTime now, Append append) {
+    if (const auto old = queue_.expire(now)) {
+        counters_.dropped_old.add(old);
+        count_drops();
+    }
+    const auto before = counters_.bytes_out.value();
+    while (!queue_.empty() && output.size() < up_to) append();
+    is_writing_ = !output.empty();
+    return counters_.bytes_out.value() - before;
+}
+
+void Session::take_one(std::vector<std::uint8_t>& output, FrameWriter& writer) {
+    iovec piece{};
+    auto from = queue_.front();
+    const auto gathered = queue_.gather(from, 0, {&piece, 1});
+    const ByteView block(static_cast<const std::uint8_t*>(piece.iov_base), piece.iov_len);
+    const bool is_text = static_cast<Kind>(block.front()) == Kind::text;
+    writer.append(output, is_text ? Opcode::text : Opcode::binary, block.subspan(1));
+    count_message(gathered.blocks, block.size() - 1);
+    queue_.pop(from);
+}
+
+void Session::take_packed(std::vector<std::uint8_t>& output, FrameWriter* writer) {
+    std::array<iovec, 16> pieces{};
+    auto from = queue_.front();
+    const auto gathered = queue_.gather(from, pack_bytes_, pieces);
+    if (writer != nullptr) writer->begin(output, Opcode::binary, gathered.bytes);
+    for (std::size_t i = 0; i < gathered.pieces; ++i) {
+        const auto* const begin = static_cast<const std::uint8_t*>(pieces[i].iov_base);
+        output.insert(output.end(), begin, begin + pieces[i].iov_len);
+    }
+    if (writer != nullptr) writer->end(output);
+    count_message(gathered.blocks, gathered.bytes);
+    queue_.pop(from);
+}
+
+void Session::count_message(std::size_t blocks, std::size_t bytes) {
+    counters_.messages_out.add();
+    counters_.blocks_out.add(blocks);
+    counters_.bytes_out.add(bytes);
+}
+
+std::size_t Session::queued_blocks() const {
+    const std::lock_guard lock(mutex_);
+    return queue_.blocks();
+}
+
+std::size_t Session::queued_bytes() const {
+    const std::lock_guard lock(mutex_);
+    return queue_.bytes();
+}
+
+void Session::end() {
+    const std::lock_guard lock(mutex_);
+    has_ended_ = true;
+}
+
+}  // namespace mavloom::http

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "link/core/border.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "link/core/core.hpp"
+
+namespace mavloom::link::detail {
+
+Link::Link(EndpointId owner, const endpoint::EndpointOptions& options)
+    : endpoint(owner), max_held_bytes(static_cast<std::size_t>(options.queue_bytes)), queue(queue_limits(options)) {}
+Link::~Link() = default;
+
+std::size_t Link::queued_bytes() const noexcept { return queue.bytes() + (border ? border->held_bytes(Way::out) : 0); }
+
+// Takes the pieces that a stage passes on.
+class Border::Step final : public Next {
+public:
+    Step(Border& border, Way way, std::size_t place, MonoTime now) noexcept
+        : border_(border), way_(way), place_(place), now_(now) {}
+    void pass(const Piece& piece) noexcept override { border_.pass(way_, place_, piece, now_); }
+    void pass_at(const Piece& piece, MonoTime when) noexcept override {
+        if (when <= now_) pass(piece);
+        else border_.hold(way_, place_, piece, now_, when);
+    }
+
+private:
+    Border& border_;
+    Way way_;
+    std::size_t place_;  // of the next stage
+    MonoTime now_;
+};
+
+Border::~Border() { core_.tickers.forget(*this); }
+
+void Border::Chain::exchange(std::vector<std::unique_ptr<Stage>> others) {
+    stages = std::move(others);
+    std::multimap<MonoTime, Held> due;
+    for (auto& [when, held_piece] : held) {
+        held_piece.place = stages.size();
+        due.emplace_hint(due.end(), MonoTime{}, std::move(held_piece));
+    }
+    held = std::move(due);
+}
+
+void Border::replace(Stages stages) {
+    at(Way::in).exchange(std::move(stages.in));
+    at(Way::out).exchange(std::move(stages.out));
+    core_.tickers.keep(*this);
+}
+
+void Border::take(Way way, const Piece& piece) {
+    release_until(way, core_.now());
+    pass(way, 0, piece, core_.now());
+}
+
+void Border::pass(Way way, std::size_t place, const Piece& piece, MonoTime now) {
+    if (piece.bytes.empty()) return;
+    if (place == at(way).stages.size()) return leave(way, piece);
+    Step next(*this, way, place + 1, now);
+    at(way).stages[place]->take(piece, now, next);
+}
+
+void Border::leave(Way way, const Piece& piece) {
+    if (way == Way::in) return link_.hear(piece.bytes, piece.time);
+    Core::push_staged(link_, piece, core_.now());
+}
+
+void Border::hold(Way way, std::size_t place, const Piece& piece, MonoTime now, MonoTime when) {
+    if (piece.bytes.empty()) return;
+    Chain& chain = at(way);
+    if (piece.bytes.size() > link_.max_held_bytes - chain.bytes) return link_.counters.held_dropped.add();
+    Held held{piece, {piece.bytes.begin(), piece.bytes.end()}, place};
+    if (way == Way::in) held.piece.time += when - now;
+    chain.bytes += held.bytes.size();
+    chain.held.emplace_hint(chain.held.end(), when, std::move(held));
+    core_.tickers.keep(*this);
+}
+
+void Border::release_until(Way way, MonoTime end) {
+    Chain& chain = at(way);
+    while (!chain.held.empty() && chain.held.begin()->first <= end) {
+        auto node = chain.held.extract(chain.held.begin());
+        Held& held = node.mapped();
+        chain.bytes -= held.bytes.size();
+        held.piece.bytes = held.bytes;
+        pass(way, held.place, held.piece, node.key());
+    }
+}
+
+void Border::release(Way way) { release_until(way, MonoTime::max()); }
+
+void Border::drop(Way way) noexcept {
+    Chain& chain = at(way);
+    link_.counters.held_dropped.add(chain.held.size());
+    chain.held.clear();
+    chain.bytes = 0;
+}
+
+std::optional<MonoTime> Border::tick_due() const {
+    if (is_idle()) return MonoTime{};
+    MonoTime due = MonoTime::max();
+    for (const Chain& chain : chains_)
+        if (!chain.held.empty()) due = std::min(due, chain.held.begin()->first);
+    return due == MonoTime::max() ? std::optional<MonoTime>() : due;
+}
+
+void Border::tick(MonoTime now) {
+    release_until(Way::in, now);
+    release_until(Way::out, now);
+    if (is_idle()) core_.remove_border(link_);
+}
+
+bool Border::is_idle() const noexcept {
+    return std::ranges::all_of(chains_, [](const Chain& chain) { return chain.stages.empty() && chain.held.empty(); });
+}
+
+}  // namespace mavloom::link::detail

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// Rules about frames that did not arrive: before this machine, in it, and between two sources.
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "observe/diagnosis/rules.hpp"
+#include "observe/diagnosis/words.hpp"
+
+namespace mavloom::observe::rules {
+
+namespace {
+
+// Our own choice: a person notices a percent. Fewer frames may be lost at the begin of a link.
+constexpr double loss_limit = 0.01;
+constexpr std::uint64_t least_lost = 5;
+
+bool is_lossy(const SenderLoss& loss) { return loss.lost > least_lost && loss_ratio(loss) >= loss_limit; }
+
+std::uint64_t own_losses(const Listened& source) { return source.count("kernel_drop") + source.count("lapped"); }
+
+const RadioReport* radio_on(const Evidence& evidence, LinkId link) {
+    const auto at = std::ranges::find(evidence.radios, link, &RadioReport::link);
+    return at == evidence.radios.end() ? nullptr : &*at;
+}
+
+// The source before has the same sender, so the two were compared.
+bool is_compared(const Evidence& evidence, std::size_t source, Source sender) {
+    if (source == 0 || source > evidence.passages.size()) return false;
+    return std::ranges::any_of(evidence.passages[source - 1], [&](const Passage& passage) {
+        return passage.source == sender && passage.is_comparable;
+    });
+}
+
+// Damaged frames, and those of other definitions, have sequence numbers, too.
+bool is_explained(const Evidence& evidence, const Listened& source, const SenderLoss& loss) {
+    std::uint64_t bad = 0;
+    for (const auto& one : evidence.bad_checksums) bad += one.link == loss.link ? one.count : 0;
+    return loss.lost <= std::max(bad, source.count("crc_error")) + least_lost;
+}
+
+void find_loss(const Evidence& evidence, const SenderLoss& loss, Findings& findings) {
+    const auto* const link = evidence.link(loss.link);
+    if (!is_lossy(loss) || link == nullptr || is_compared(evidence, link->source, loss.source)) return;
+    const auto& source = evidence.sources[link->source];
+    if (own_losses(source) + evidence.buffer_full != 0 || is_explained(evidence, source, loss)) return;
+    const auto* const sender = stream_of(evidence, link->source, loss.source);
+    if (sender == nullptr || !sender->has_sequence || arrival_of(evidence, link->source, *sender) != Arrival::usual)
+        return;
+    const bool is_alone = sender->links.size() == 1;
+    if (is_alone && sender->has_regular_gaps())
+        findings.push_back(words::regular_gaps(evidence, loss, sender->station_loss()));
+    else findings.push_back(words::lost_before(evidence, loss, radio_on(evidence, loss.link)));
+}
+
+}  // namespace
+
+void find_losses(const Evidence& evidence, Findings& findings) {
+    for (const auto& loss : evidence.losses) find_loss(evidence, loss, findings);
+}
+
+void find_own_losses(const Evidence& evidence, Findings& findings) {
+    // A small datagram takes this much of a receive buffer (sk_buff and its data); the buffer should last this long.
+    constexpr double bytes_each = 768, seconds = 0.1;
+    for (std::size_t i = 0; i < evidence.sources.size(); ++i) {
+        const auto& source = evidence.sources[i];
+        std::uint64_t lost = 0;
+        for (const auto& loss : evidence.losses)
+            if (evidence.source_of(loss.link) == &source) lost += loss.lost;
+        const auto rate = static_cast<double>(source.count("frames_in")) /
+                          std::max(std::chrono::duration<double>(source.duration).count(), 0.1);
+        if (const auto dropped = source.count("kernel_drop"); dropped != 0)
+            findings.push_back(words::kernel_drop(source, dropped, lost));
+        else if (source.rcvbuf_granted != 0 && source.rcvbuf_granted < source.rcvbuf_asked &&
+                 rate * seconds * bytes_each > static_cast<double>(source.rcvbuf_granted))
+            findings.push_back(words::receive_buffer(source, rate));
+        if (const auto records = source.count("lapped"); records != 0)
+            findings.push_back(words::ring_lapped(source, records));
+    }
+    if (evidence.buffer_full != 0) findings.push_back(words::too_slow(evidence.buffer_full));
+}
+
+namespace {
+
+std::uint64_t count_of(const std::vector<NamedCount>& losses, std::string_view name) {
+    const auto at = std::ranges::find(losses, name, &NamedCount::name);
+    return at == losses.end() ? 0 : at->count;
+}
+
+// A count that fell belongs to a program that was started again.
+std::uint64_t grown(std::uint64_t from, std::uint64_t to) { return to < from ? to : to - from; }
+
+// "14550" of "udpout://127.0.0.1:14550".
+std::string_view port_of(std::string_view name) {
+    const auto colon = name.rfind(':');
+    return colon == std::string_view::npos ? std::string_view() : name.substr(colon + 1);
+}
+
+// Until we opened the port, it was closed.
+bool is_ours(const Evidence& evidence, std::string_view link) {
+    if (port_of(link).empty()) return false;
+    return std::ranges::any_of(evidence.sources, [&](const Listened& source) {
+        return source.kind == Listened::Kind::listens && port_of(source.name) == port_of(link);
+    });
+}
+
+void find_link_losses(const Evidence& evidence, const Hop& hop, const HopLink& before, const HopLink& link,
+                      Findings& findings) {
+    constexpr std::array<std::string_view, 3> kinds{"queue_bytes", "queue_age", "frames_not_sent"};
+    for (const auto& loss : link.losses) {
+        if (std::ranges::find(kinds, loss.name) == kinds.end()) continue;
+        const auto more = grown(count_of(before.losses, loss.name), loss.count);
+        if (more != 0) findings.push_back(words::queue_drop(hop, link, {loss.name, more, loss.help}));
+    }
+    if (const auto more = grown(before.refused, link.refused); more != 0 && !is_ours(evidence, link.name))
+        findings.push_back(words::port_refused(hop, link, more));
+}
+
+}  // namespace
+
+void find_hop_losses(const Evidence& evidence, Findings& findings) {
+    for (const auto& hop : evidence.hops_after) {
+        const auto before = std::ranges::find(evidence.hops_before, hop.name, &Hop::name);
+        if (before == evidence.hops_before.end()) continue;
+        for (const auto& link : hop.links) {
+            const auto same = std::ranges::find(before->links, link.name, &HopLink::name);
+            find_link_losses(evidence, hop, same == before->links.end() ? HopLink{} : *same, link, findings);
+        }
+        const auto more = grown(count_of(before->losses, "ring_dropped"), count_of(hop.losses, "ring_dropped"));
+        if (more != 0) findings.push_back(words::ring_dropped(hop, {"ring_dropped", more}));
+    }
+}
+
+void find_passages(const Evidence& evidence, Findings& findings) {
+    for (std::size_t i = 0; i < evidence.passages.size(); ++i) {
+        for (const auto& passage : evidence.passages[i]) {
+            if (passage.lost != 0) findings.push_back(words::lost_between(evidence, i, passage));
+            if (passage.filtered != 0) findings.push_back(words::filtered_between(evidence, i, passage));
+        }
+    }
+}
+
+}  // namespace mavloom::observe::rules

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/view/history.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mavloom/message/format.hpp"
+
+namespace mavloom::view {
+
+RowKey key_of(const observe::LatestRow& row) noexcept {
+    return {row.traffic.link, row.traffic.source, row.traffic.id, row.instance_number};
+}
+
+void History::watch(const std::optional<RowKey>& key) {
+    if (key == watched_) return;
+    watched_ = key;
+    kept_.clear();
+}
+
+void History::keep(const observe::LatestRow& row) {
+    message_ = row.message;
+    const auto time = row.traffic.last;
+    while (!kept_.empty() && (kept_.size() == max_payloads || time - kept_.front().time > window)) kept_.pop_front();
+    kept_.push_back({time, row.payload_size, row.payload_bytes});
+}
+
+std::vector<Point> History::points(const Number& number) const {
+    std::vector<Point> all;
+    if (message_ == nullptr) return all;
+    all.reserve(kept_.size());
+    for (const auto& kept : kept_) {
+        const message::MessageView view(*message_, ByteView(kept.bytes).first(kept.size));
+        const auto value = message::scaled_number(view, *number.field, number.element);
+        if (std::isfinite(value)) all.push_back({kept.time, value});
+    }
+    return all;
+}
+
+}  // namespace mavloom::view

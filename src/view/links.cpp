@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "view/table.hpp"
+#include "view/words.hpp"
+
+namespace mavloom::view {
+
+namespace {
+
+constexpr std::array kinds{"source", "router", "simulator", "listener", "relay", "page"};
+constexpr std::array<int, 5> link_ends{44, 54, 64, 74, 84};
+constexpr std::array<std::string_view, 5> titles{"LINK", "HZ IN", "HZ OUT", "IN", "OUT"};
+
+// A program, a link of it, or frames that either of them lost.
+struct LinkLine {
+    const observe::Hop* hop = nullptr;
+    const observe::HopLink* link = nullptr;
+    const observe::NamedCount* loss = nullptr;
+    bool is_hint = false;
+};
+
+void add_losses(std::vector<LinkLine>& lines, const LinkLine& of, const std::vector<observe::NamedCount>& losses) {
+    for (const auto& loss : losses)
+        if (loss.count != 0) lines.push_back({of.hop, of.link, &loss});
+}
+
+std::vector<LinkLine> lines_of_hops(const std::vector<observe::Hop>& hops) {
+    std::vector<LinkLine> lines;
+    for (const auto& hop : hops) {
+        lines.push_back({&hop});
+        if (!hop.hint.empty()) lines.push_back({.hop = &hop, .is_hint = true});
+        add_losses(lines, lines.back(), hop.losses);
+        for (const auto& link : hop.links) {
+            lines.push_back({&hop, &link});
+            add_losses(lines, lines.back(), link.losses);
+        }
+    }
+    return lines;
+}
+
+class LinkTable : public Table {
+public:
+    explicit LinkTable(const Snapshot& shown) : lines_(lines_of_hops(shown.hops)) {}
+
+    [[nodiscard]] int size() const override { return static_cast<int>(lines_.size()); }
+    void draw_head(Grid& grid, int y) const override {
+        grid.put(1, y, titles.front(), Ink::strong);
+        for (std::size_t i = 1; i < link_ends.size(); ++i) grid.put_right(place(grid, i), y, titles[i], Ink::strong);
+    }
+    void draw_line(Grid& grid, int y, int line) const override {
+        const auto& its = lines_[static_cast<std::size_t>(line)];
+        if (its.loss != nullptr) return draw_loss(grid, y, its);
+        if (its.is_hint) return void(grid.put(3, y, its.hop->hint, Ink::warning));
+        if (its.link != nullptr) return draw_flow(grid, y, 3, its.link->name, *its.link, Ink::plain);
+        const auto kind = kinds[static_cast<std::size_t>(its.hop->kind)];
+        draw_flow(grid, y, 1, fmt::format("{} {}", kind, its.hop->name), *its.hop, Ink::accent);
+    }
+
+private:
+    // Narrow terminals have less room for the names.
+    static int place(const Grid& grid, std::size_t column) {
+        return link_ends[column] - std::clamp(link_ends.back() + 1 - grid.size().width, 0, 24);
+    }
+
+    static void draw_loss(Grid& grid, int y, const LinkLine& its) {
+        const int x = its.link == nullptr ? 3 : 5;
+        const auto end = grid.put(x, y, fmt::format("{} {}", count_text(its.loss->count), its.loss->name), Ink::bad);
+        grid.put(end, y, its.loss->help.empty() ? "" : ": " + its.loss->help, Ink::dim);
+    }
+
+    static bool has_ended(const observe::Hop& /*hop*/) { return false; }
+    static bool has_ended(const observe::HopLink& link) { return link.has_ended; }
+
+    template <class Flow>
+    static void draw_flow(Grid& grid, int y, int x, std::string_view name, const Flow& its, Ink ink) {
+        grid.put(x, y, name, its.is_up ? ink : Ink::dim, place(grid, 0) - 1);
+        if (has_ended(its)) return grid.put_right(place(grid, 1), y, "ended", Ink::dim);
+        if (!its.is_up) return grid.put_right(place(grid, 1), y, "down", Ink::bad);
+        const auto rate = [](const std::optional<double>& hz) { return hz ? hz_text(*hz) : "-"; };
+        const std::array texts{rate(its.hz_in), rate(its.hz_out), count_text(its.frames_in), count_text(its.frames_out)};
+        for (std::size_t i = 0; i < texts.size(); ++i) grid.put_right(place(grid, i + 1), y, texts[i], Ink::plain);
+    }
+
+    const std::vector<LinkLine> lines_;
+};
+
+}  // namespace
+
+std::unique_ptr<Table> link_table(const Snapshot& shown) { return std::make_unique<LinkTable>(shown); }
+
+}  // namespace mavloom::view

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: MIT
+"""`mavloom top` in tmux, on a recorded flight and on a simulated vehicle; and its views printed once."""
+import json
+import os
+import re
+import shutil
+import subprocess
+
+import frames
+import harness
+import pytest
+
+
+class Tmux:
+    """A terminal of a size of its own, with one program in it."""
+
+    def __init__(self, folder, *command, columns=80, lines=24, env=()):
+        self.socket = str(folder / "tmux")
+        settings = " ".join(f"{key}={value}" for key, value in env)
+        self.call("-f", "/dev/null", "new-session", "-d", "-x", str(columns), "-y", str(lines),
+                  f"env {settings} {' '.join(map(str, command))}; echo ended with $?; "
+                  "stty -a | grep -o -- '-*icanon'; cat")
+
+    def call(self, *arguments):
+        return subprocess.run(["tmux", "-S", self.socket, *arguments], capture_output=True, text=True, check=True,
+                              env={**os.environ, "LC_ALL": "C.UTF-8"}).stdout
+
+    def type(self, *keys):
+        self.call("send-keys", *keys)
+
+    def shown(self):
+        return self.call("capture-pane", "-p")
+
+    def wait_for(self, pattern):
+        try:
+            return harness.wait_for(lambda: re.search(pattern, self.shown(), re.MULTILINE), what=pattern)
+        except AssertionError as error:
+            raise AssertionError(f"{error}\n{self.shown()}") from None
+
+    def close(self):
+        subprocess.run(["tmux", "-S", self.socket, "kill-server"], capture_output=True, check=False)
+
+
+@pytest.fixture
+def tmux(tmp_path, program):
+    if not shutil.which("tmux"):
+        pytest.skip("tmux is missing: ./run test installs it")
+    opened = []
+
+    def start(*arguments, **options):
+        opened.append(Tmux(tmp_path, program, "top", *arguments, **options))
+        return opened[-1]
+    yield start
+    for terminal in opened:
+        terminal.close()
+
+
+def test_a_vehicle_is_searched_opened_and_left(tmux, spawn, udp_port):
+    port = udp_port()
+    spawn("sim", "--to", f"udpout://127.0.0.1:{port}", "--name", f"top-{os.getpid()}")
+    terminal = tmux(f"udpin://127.0.0.1:{port}")
+    terminal.wait_for(r"ATTITUDE +\d")
+    terminal.type("/")
+    terminal.type("-l", "global_pos")
+    terminal.wait_for(r"GLOBAL_POSITION_INT +\d")
+    harness.wait_for(lambda: "ATTITUDE" not in terminal.shown(), what="only what was searched")
+    terminal.type("Enter")
+    terminal.type("Enter")
+    terminal.wait_for(r"relative_alt")
+    terminal.type("Escape")
+    terminal.type("2")
+    terminal.wait_for(r"quadrotor +Hold")
+    terminal.type("3")
+    terminal.wait_for(f"udpin://127.0.0.1:{port}")
+    terminal.type("q")
+    terminal.wait_for("^ended with 0\n *icanon")
+
+
+def test_a_message_gets_another_rate_and_routes_are_shown(tmux, spawn, run, udp_port):
+    """The question goes by the ring's inlet and the router to the simulator, the answer comes back."""
+    port, name = udp_port(), f"top-rate-{os.getpid()}"
+    spawn("route", f"udpin://127.0.0.1:{port}", "--ring", name, "--name", name)
+    sim = f"{name}-sim"
+    spawn("sim", "--to", f"udpout://127.0.0.1:{port}", "--name", sim)
+    terminal = tmux(f"shm://{name}", "--only", "ATTITUDE")
+    terminal.wait_for(r"ATTITUDE +\d")
+    terminal.type("Down")
+    terminal.type("-l", "i4")
+    terminal.wait_for(r"rate: 4_ Hz ATTITUDE from 1/1")
+    terminal.type("Enter")
+    terminal.wait_for(r"ATTITUDE from 1/1: accepted")
+    streams = [json.loads(line) for line in run("ctl", sim, "streams").stdout.splitlines()]
+    assert [one["asked_hz"] for one in streams if one.get("name") == "ATTITUDE"] == [4], streams
+    terminal.type("4")
+    terminal.wait_for(rf"1/1 +{name[:10]}.*udpin://127.0.0.1")
+
+
+@pytest.mark.parametrize("number", ["TERM", "HUP"])
+def test_a_signal_gives_the_terminal_back(tmux, spawn, number):
+    terminal = tmux(frames.FLIGHT)
+    terminal.wait_for(r"HEARTBEAT +\d")
+    pane = terminal.call("display-message", "-p", "#{pane_pid}").strip()
+    subprocess.run(["pkill", f"-{number}", "-P", pane, "mavloom"], check=True)
+    terminal.wait_for(r"^ended with \d+\n *icanon")
+
+
+@pytest.mark.parametrize("columns, lines", [(5, 5), (40, 10), (200, 60)])
+def test_each_size_shows_what_fits(tmux, columns, lines):
+    of_another_terminal = ("COLUMNS", "80"), ("LINES", "24")
+    terminal = tmux(frames.FLIGHT, columns=columns, lines=lines, env=[("NO_COLOR", "1"), *of_another_terminal])
+    terminal.wait_for("1/1 quadrotor" if columns > 5 else r"\S")
+    terminal.type("q")
+    terminal.wait_for("(?<!-)icano")  # five cells of a line
+
+
+def test_a_terminal_that_changes_its_size(tmux):
+    terminal = tmux(frames.FLIGHT, columns=120, lines=30)
+    terminal.wait_for(r"HEARTBEAT +\d")
+    terminal.call("resize-window", "-x", "50", "-y", "12")
+    terminal.wait_for(r"ATTITUDE +\d")
+    assert max(map(len, terminal.shown().splitlines())) <= 50
+
+
+def test_a_recording_is_halted_and_moved_in(tmux):
+    terminal = tmux(frames.FLIGHT)
+    terminal.wait_for(r"HEARTBEAT +\d")
+    terminal.type("$")
+    terminal.wait_for(r"1/1 quadrotor")
+    terminal.type("0")
+    terminal.wait_for(r"00:0\d")
+    terminal.type("q")
+    terminal.wait_for("^ended with 0")
+
+
+def test_once_prints_the_views(run):
+    done = run("top", frames.FLIGHT, "--once", env={"COLUMNS": "120"})
+    assert done.status == 0 and re.search(r"1/1.*quadrotor.*px4", done.stdout), done
+    sent = sum(1 for _, frame in frames.read_tlog(frames.FLIGHT) if frame[0] == 0xFD and frame[7:10] == b"\x1e\0\0")
+    assert re.search(rf"^   ATTITUDE  .* kB +{sent} ", done.stdout, re.MULTILINE), (sent, done)
+    assert "\x1b" not in done.stdout
+
+
+def test_no_terminal_prints_once_and_states_why(run):
+    done = run("top", frames.FLIGHT, env={"TERM": "dumb"})
+    assert done.status == 0 and "as with --once" in done.stderr and "ATTITUDE" in done.stdout

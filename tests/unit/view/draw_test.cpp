@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// The views as grids of text. Expected rates and counts are those of the frames that each test sends.
+#include "mavloom/view/draw.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "mavloom/msg/attitude.hpp"
+#include "mavloom/msg/heartbeat.hpp"
+#include "mavloom/msg/statustext.hpp"
+#include "unit/observe/fixture.hpp"
+
+namespace mavloom::view {
+namespace {
+
+using namespace observe::testing;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+struct DrawTest : InspectorTest {
+    DrawTest() {
+        for (int i = 0; i < 101; ++i) hear(msg::Attitude{.roll = 0.01F * static_cast<float>(i)}, i * 100ms);
+        for (int i = 0; i < 11; ++i)
+            hear(msg::Heartbeat{.type = 2, .autopilot = 12, .base_mode = 0x81, .custom_mode = 50593792}, i * 1s);
+    }
+
+    [[nodiscard]] std::shared_ptr<Snapshot> taken(Nanoseconds at = 10s) const {
+        return std::make_shared<Snapshot>(
+            take_snapshot(dialect::default_dialect(), inspector, {wall(at), mono(at)},
+                          {{.link = LinkId{1}, .source = vehicle, .received = 112, .lost = 8}}, Rates::average));
+    }
+    std::string drawn(Size size, Glyphs glyphs = Glyphs::ascii) { return draw(*taken(), state, size, glyphs).text(); }
+    Effect type(std::u32string_view characters) {
+        auto effect = Effect::none;
+        for (const char32_t c : characters) effect = press({.character = c});
+        return effect;
+    }
+    Effect press(const Key& key) { return view::press(state, taken(), key, {80, 24}); }
+
+    State state{};
+};
+
+TEST_F(DrawTest, TheMessagesOfAVehicle) {
+    EXPECT_EQ(drawn({80, 12}),
+              " mavloom top                                                    11.0 Hz 218 B/s\n"
+              " no alarm\n"
+              " 1 Messages  2 Vehicles  3 Links  4 Routes  5 Alarms\n"
+              " MESSAGEv                                  HZ     AGE  GAP MAX   JITTER   SHARE\n"
+              " 1/1 quadrotor link                                               8 lost, 6.7 %\n"
+              "   ATTITUDE                              10.0   0.0 s   100 ms     0 us  90.6 %\n"
+              "   HEARTBEAT                              1.0   0.0 s   1.00 s     0 us   9.4 %\n"
+              "\n\n\n\n"
+              " ? help  / search  s sort  enter open  f freeze  space pause  q quit\n");
+}
+
+TEST_F(DrawTest, ASearchLeavesWhatMatches) {
+    type(U"/atti");
+    EXPECT_THAT(drawn({80, 24}), HasSubstr("ATTITUDE"));
+    EXPECT_THAT(drawn({80, 24}), Not(HasSubstr("HEARTBEAT")));
+}
+
+TEST_F(DrawTest, AMessageOpensToItsFields) {
+    press({.code = Key::Code::down});
+    press({.code = Key::Code::enter});
+    EXPECT_THAT(drawn({80, 24}), HasSubstr("1.0 rad\n"));  // roll of the last frame
+    EXPECT_THAT(drawn({80, 24}), HasSubstr("rollspeed"));
+    press({.code = Key::Code::escape});
+    EXPECT_THAT(drawn({80, 24}), Not(HasSubstr("rollspeed")));
+}
+
+TEST_F(DrawTest, AVehicleIsShownInTheWordsOfMavlink) {
+    type(U"2");
+    EXPECT_THAT(drawn({120, 24}), HasSubstr("quadrotor"));
+    EXPECT_THAT(drawn({120, 24}), HasSubstr("Hold"));
+}
+
+TEST_F(DrawTest, TextFromOutsideControlsNoTerminal) {
+    msg::Statustext text{.severity = 2};
+    constexpr std::string_view words =
+        "\x1b[2J\x07"
+        "boom\xff\xe2\x80\xae";
+    std::ranges::copy(words, text.text.begin());
+    hear(text, 10s);
+    type(U"5");
+    const auto all = drawn({120, 24}, Glyphs::unicode);
+    EXPECT_THAT(all, HasSubstr("boom"));
+    for (const char c : all) EXPECT_TRUE(c == '\n' || static_cast<unsigned char>(c) >= ' ') << int{c};
+    EXPECT_THAT(all, Not(HasSubstr("\xe2\x80\xae"))) << "the direction of writing";
+}
+
+TEST_F(DrawTest, AColumnIsHiddenAndShownAgain) {
+    type(U"c3");
+    EXPECT_THAT(drawn({80, 24}), HasSubstr(" 1 HZ 3 AGE"));
+    press({.code = Key::Code::escape});
+    EXPECT_THAT(drawn({80, 24}), Not(HasSubstr(" AGE")));
+    type(U"c3");
+    press({.code = Key::Code::escape});
+    EXPECT_THAT(drawn({80, 24}), HasSubstr(" AGE"));
+}
+
+TEST_F(DrawTest, ARateIsAskedForAndItsAnswerIsShown) {
+    press({.code = Key::Code::down});
+    EXPECT_EQ(type(U"i2x5"), Effect::none);
+    EXPECT_THAT(drawn({80, 24}), HasSubstr("rate: 25_ Hz ATTITUDE from 1/1"));
+    EXPECT_EQ(press({.code = Key::Code::enter}), Effect::ask_rate);
+    ASSERT_TRUE(state.asked);
+    EXPECT_EQ(state.asked->key.id, msg::Attitude::id);
+    EXPECT_EQ(state.asked->interval_us(), 40'000);
+    EXPECT_THAT(drawn({80, 24}), HasSubstr("ATTITUDE from 1/1: asked, no answer so far"));
+    state.asked->answer.is_untaken = true;
+    EXPECT_THAT(drawn({80, 24}), HasSubstr("ATTITUDE from 1/1: not asked"));
+    state.asked->answer.result = 3;
+    EXPECT_THAT(drawn({80, 24}), HasSubstr("ATTITUDE from 1/1: unsupported"));
+}
+
+TEST_F(DrawTest, NoRateIsAskedForWithoutAGoodNumber) {
+    press({.code = Key::Code::down});
+    for (const auto* const typed : {U"i", U"i1.2.3", U"i99999"}) {
+        type(typed);
+        EXPECT_EQ(press({.code = Key::Code::enter}), Effect::none);
+        EXPECT_EQ(drawn({80, 24}).find("is no rate") == std::string::npos, typed[1] == 0)
+            << "nothing typed is no error";
+        press({.code = Key::Code::escape});
+    }
+    EXPECT_FALSE(state.asked);
+}
+
+TEST_F(DrawTest, TheRoutesOfARouter) {
+    auto shown = taken();
+    shown->routes = {{.router = "router", .source = vehicle, .link = "udpin://:14550", .age_s = 0.25, .frames = 7},
+                     {.router = "other", .error = "it does not answer"}};
+    type(U"4");
+    const auto all = draw(*shown, state, {80, 24}, Glyphs::ascii).text();
+    EXPECT_THAT(all, HasSubstr(" 1/1      router          udpin://:14550"));
+    EXPECT_THAT(all, HasSubstr("          other           it does not answer"));
+}
+
+TEST_F(DrawTest, QuitIsTheEffectOfQ) { EXPECT_EQ(type(U"q"), Effect::quit); }
+
+// Under the sanitizers.
+TEST_F(DrawTest, NoSizeAndNoKeysLeaveTheGrid) {
+    const auto seed = std::random_device{}();
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+    constexpr std::u32string_view keys = U"/12345sSrfci0d. ?jkaq";
+    for (int i = 0; i < 2000; ++i) {
+        const Size size{1 + below(130), 1 + below(50)};
+        const auto code = static_cast<Key::Code>(below(static_cast<int>(Key::Code::scroll_down) + 1));
+        (void)view::press(
+            state, taken(),
+            {code, keys[static_cast<std::size_t>(below(static_cast<int>(keys.size())))], below(130), below(50)}, size);
+        const auto grid = draw(*taken(), state, size, below(2) == 0 ? Glyphs::ascii : Glyphs::unicode);
+        ASSERT_EQ(grid.size(), size);
+    }
+}
+
+}  // namespace
+}  // namespace mavloom::view
