@@ -9,6 +9,7 @@
 #include "mavloom/msg/command_ack.hpp"
 #include "mavloom/msg/command_int.hpp"
 #include "mavloom/msg/command_long.hpp"
+#include "mavloom/msg/enums/mav_cmd.hpp"
 #include "mavloom/msg/message_interval.hpp"
 #include "mavloom/msg/request_data_stream.hpp"
 
@@ -16,7 +17,7 @@ namespace mavloom::observe {
 
 namespace {
 
-constexpr std::uint16_t set_message_interval = 511;  // MAV_CMD_SET_MESSAGE_INTERVAL
+constexpr auto set_message_interval = std::uint16_t{msg::MAV_CMD_SET_MESSAGE_INTERVAL};
 
 // A message of each stream group that every ArduPilot vehicle sends (MAV_DATA_STREAM; ArduPilot's
 // GCS_MAVLINK::data_stream_ids). PX4 ignores the request.

@@ -6,6 +6,8 @@
 #include <functional>
 #include <utility>
 
+#include "mavloom/base/durations.hpp"
+
 namespace mavloom::observe {
 
 namespace {
@@ -14,7 +16,7 @@ namespace {
 constexpr auto least_rate_span = std::chrono::seconds(1), rate_span = std::chrono::seconds(5);
 
 double rate(std::uint64_t from, std::uint64_t to, Nanoseconds in) {
-    return static_cast<double>(to - from) / std::chrono::duration<double>(in).count();
+    return static_cast<double>(to - from) / seconds(in);
 }
 
 // `lost` since the alarm began, of `loss.count` since the program started.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "mavloom/msg/radio.hpp"
 #include "mavloom/msg/radio_status.hpp"
 
 namespace mavloom::observe {
@@ -17,6 +18,8 @@ void note_margin(RadioReport& report, std::uint8_t signal, std::uint8_t noise) {
 }
 
 }  // namespace
+
+bool is_of_radio(MessageId id) noexcept { return id == msg::RadioStatus::id || id == msg::Radio::id; }
 
 void RadioReports::take(const Heard& heard) {
     if (heard.frame.id() != msg::RadioStatus::id) return;

@@ -8,12 +8,12 @@
 #include <utility>
 
 #include "mavloom/msg/heartbeat.hpp"
+#include "mavloom/observe/radio_reports.hpp"
 
 namespace mavloom::observe {
 
 namespace {
 
-constexpr MessageId radio_status{109}, radio{166};
 // A frame as far behind the newest one is late or repeated; one that is farther away begins another sequence.
 constexpr std::int8_t farthest_behind = -100;
 // A number comes again after 256 frames of one sequence. Frames of two links count together.
@@ -112,8 +112,7 @@ void SenderStreams::add(const Heard& heard) {
     ++its.frames;
     its.last = heard.time;
     if (its.links.size() < max_links || its.links.contains(heard.link)) ++its.links[heard.link];
-    if (frame.id() != radio_status && frame.id() != radio)
-        ++(frame.is_signed() ? its.signed_frames : its.unsigned_frames);
+    if (!is_of_radio(frame.id())) ++(frame.is_signed() ? its.signed_frames : its.unsigned_frames);
     if (frame.id() == msg::Heartbeat::id) {
         const auto heartbeat = msg::Heartbeat::decode(frame.payload());
         const auto kind = static_cast<std::uint16_t>(heartbeat.type << 8 | heartbeat.autopilot);
@@ -178,7 +177,7 @@ void SenderStreams::note_window(State& state, WallTime time) {
 std::vector<SenderStream> SenderStreams::all() const {
     std::vector<SenderStream> all;
     all.reserve(states_.size());
-    for (const auto& state : states_) all.push_back(state->its);
+    for (const auto& [source, place] : index_) all.push_back(states_[place]->its);
     return all;
 }
 

@@ -34,8 +34,7 @@ public:
         if (!its.error.empty()) return void(grid.put(route_link_at, y, its.error, Ink::warning));
         grid.put(sender_at, y, source_text(its.source), Ink::accent, router_at - 1);
         grid.put(route_link_at, y, its.link, Ink::plain, end - frames_width - route_age_width);
-        grid.put_right(end - frames_width, y,
-                       age_text(std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(its.age_s))));
+        grid.put_right(end - frames_width, y, age_text(its.age));
         grid.put_right(end, y, count_text(its.frames));
     }
 

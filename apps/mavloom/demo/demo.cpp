@@ -11,6 +11,7 @@
 #include "chain.hpp"
 #include "command.hpp"
 #include "latency.hpp"
+#include "mavloom/base/durations.hpp"
 #include "mavloom/base/thread.hpp"
 #include "mavloom/endpoint/grammar.hpp"
 #include "mavloom/router/report.hpp"
@@ -220,13 +221,13 @@ private:
 
     [[nodiscard]] nlohmann::ordered_json json(std::optional<bool> is_whole,
                                               const std::optional<LatencyFigures>& latency) const {
-        const auto ms = [](Nanoseconds time) { return std::chrono::duration<double, std::milli>(time).count(); };
         nlohmann::ordered_json object{
             {"ok", nullptr}, {"hops", json_of(tallies_)}, {"answers", tallies_.answers()}, {"latency_ms", nullptr}};
         if (is_whole) object["ok"] = *is_whole;
         if (latency)
-            object["latency_ms"] = {
-                {"median", ms(latency->median)}, {"p99", ms(latency->p99)}, {"longest", ms(latency->most)}};
+            object["latency_ms"] = {{"median", milliseconds(latency->median)},
+                                    {"p99", milliseconds(latency->p99)},
+                                    {"longest", milliseconds(latency->most)}};
         return object;
     }
 

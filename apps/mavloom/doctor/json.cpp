@@ -11,6 +11,8 @@ using Json = nlohmann::ordered_json;
 
 Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
+Json name_or_null(const dialect::Message* message) { return message == nullptr ? Json(nullptr) : Json(message->name); }
+
 Json finding_json(const observe::Evidence& evidence, const observe::Finding& finding) {
     const auto* const message = finding.message ? evidence.dialect->find(*finding.message) : nullptr;
     Json object{{"id", finding.id},
@@ -23,7 +25,7 @@ Json finding_json(const observe::Evidence& evidence, const observe::Finding& fin
                 {"link", text_or_null(finding.link)}};
     object["sys"] = finding.sender ? Json(finding.sender->system.value) : Json(nullptr);
     object["comp"] = finding.sender ? Json(finding.sender->component.value) : Json(nullptr);
-    object["message"] = message == nullptr ? Json(nullptr) : Json(message->name);
+    object["message"] = name_or_null(message);
     return object;
 }
 
@@ -49,9 +51,8 @@ Json source_json(const observe::Evidence& evidence, std::size_t i) {
 Json passage_json(const observe::Evidence& evidence, std::size_t first, const observe::Passage& passage) {
     auto messages = Json::array();
     for (const auto& message : passage.messages) {
-        const auto* const known = evidence.dialect->find(message.id);
         messages.push_back({{"id", message.id.value},
-                            {"name", known == nullptr ? Json(nullptr) : Json(known->name)},
+                            {"name", name_or_null(evidence.dialect->find(message.id))},
                             {"heard", message.heard},
                             {"lost", message.lost}});
     }

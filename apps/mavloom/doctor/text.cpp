@@ -5,10 +5,11 @@
 #include <string_view>
 
 #include "doctor/reports.hpp"
+#include "entry_text.hpp"
 #include "mavloom/base/counted.hpp"
+#include "mavloom/base/durations.hpp"
 #include "mavloom/base/shown.hpp"
 #include "mavloom/base/source_text.hpp"
-#include "mavloom/dialect/entry_name.hpp"
 
 namespace mavloom::app {
 
@@ -48,15 +49,9 @@ private:
 };
 
 std::string kind_of_sender(const observe::Evidence& evidence, Source source) {
-    constexpr std::uint8_t no_autopilot = 8;  // MAV_AUTOPILOT_INVALID
     const auto vehicle = std::ranges::find(evidence.vehicles, source, &observe::Vehicle::source);
     if (vehicle == evidence.vehicles.end()) return {};
-    const auto name = [&](std::string_view of, std::uint8_t value) {
-        return std::string(dialect::short_entry_name(*evidence.dialect, of, value));
-    };
-    const auto type = name("MAV_TYPE", vehicle->type);
-    if (vehicle->autopilot == no_autopilot) return fmt::format(" ({})", type);
-    return fmt::format(" ({} {})", name("MAV_AUTOPILOT", vehicle->autopilot), type);
+    return fmt::format(" ({})", kind_text(*evidence.dialect, vehicle->type, vehicle->autopilot));
 }
 
 std::string senders_text(const observe::Evidence& evidence, std::size_t source) {
@@ -70,8 +65,8 @@ std::string senders_text(const observe::Evidence& evidence, std::size_t source) 
 }
 
 std::string time_text(Nanoseconds time) {
-    const auto seconds = std::chrono::duration<double>(time).count();
-    return seconds < 120 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.0f} min", seconds / 60);
+    const auto s = seconds(time);
+    return s < 120 ? fmt::format("{:.0f} s", s) : fmt::format("{:.0f} min", s / 60);
 }
 
 std::string source_line(const observe::Evidence& evidence, std::size_t i) {

@@ -26,8 +26,6 @@ struct RecordingInfo {
 [[nodiscard]] std::string gpx(std::span<const RecordingInfo> infos, const dialect::Dialect& dialect);
 [[nodiscard]] std::string kml(std::span<const RecordingInfo> infos, const dialect::Dialect& dialect);
 
-// Returns the short name of an enum entry, such as "QUADROTOR", or the number if there is no such entry.
-[[nodiscard]] std::string entry_text(const dialect::Dialect& dialect, std::string_view enum_name, std::uint64_t value);
 // "PX4 QUADROTOR", "GCS"
 [[nodiscard]] std::string kind_text(const observe::SenderSummary& sender, const dialect::Dialect& dialect);
 // "2026-11-14 10:22:31", in UTC.

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <vector>
 
+#include "entry_text.hpp"
 #include "info/reports.hpp"
 #include "mavloom/base/counted.hpp"
 #include "mavloom/base/durations.hpp"

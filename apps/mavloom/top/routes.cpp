@@ -14,10 +14,15 @@ bool is_up_to(const nlohmann::json& object, const char* name, std::uint64_t most
     return at != object.end() && at->is_number_unsigned() && at->get<std::uint64_t>() <= most;
 }
 
+// Longer ones are none, and would not fit into nanoseconds.
+bool is_age(const nlohmann::json& seconds) {
+    return seconds.is_number() && seconds.get<double>() >= 0 && seconds.get<double>() <= 1e9;
+}
+
 bool is_route(const nlohmann::json& json) {
     return json.is_object() && is_up_to(json, "sys", 255) && is_up_to(json, "comp", 255) &&
            is_up_to(json, "frames", UINT64_MAX) && json.contains("link") && json["link"].is_string() &&
-           json.contains("age_s") && json["age_s"].is_number();
+           is_age(json.value("age_s", nlohmann::json()));
 }
 
 view::Route route_of(const std::string& router, const std::string& line) {
@@ -26,7 +31,7 @@ view::Route route_of(const std::string& router, const std::string& line) {
     return {.router = router,
             .source = {SystemId{json["sys"].get<std::uint8_t>()}, ComponentId{json["comp"].get<std::uint8_t>()}},
             .link = json["link"].get<std::string>(),
-            .age_s = json["age_s"].get<double>(),
+            .age = std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(json["age_s"].get<double>())),
             .frames = json["frames"].get<std::uint64_t>()};
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mavloom/base/clock.hpp"
+#include "mavloom/base/durations.hpp"
 #include "mavloom/base/ids.hpp"
 #include "mavloom/dialect/dialect.hpp"
 #include "mavloom/observe/alarm.hpp"
@@ -108,7 +109,7 @@ struct Evidence {
     [[nodiscard]] const HeardLink* link(LinkId id) const noexcept;
     [[nodiscard]] const Listened* source_of(LinkId link) const noexcept;
     [[nodiscard]] std::string_view name_of(LinkId link) const noexcept;
-    [[nodiscard]] double seconds() const noexcept { return std::chrono::duration<double>(duration).count(); }
+    [[nodiscard]] double seconds() const noexcept { return mavloom::seconds(duration); }
 };
 
 // The streams of the table, for Evidence.

@@ -27,6 +27,9 @@ private:
     std::uint16_t last_rxerrors_ = 0, last_fixed_ = 0;
 };
 
+// Whether a radio sends this of itself, unsigned and without a HEARTBEAT: RADIO_STATUS, and RADIO of old SiK radios.
+[[nodiscard]] bool is_of_radio(MessageId id) noexcept;
+
 class RadioReports {
 public:
     static constexpr std::size_t max_radios = 64;

@@ -73,7 +73,7 @@ public:
     ~SenderStreams();
 
     void add(const Heard& heard);
-    // In the order in which they were first heard.
+    // Sorted by sender.
     [[nodiscard]] std::vector<SenderStream> all() const;
     [[nodiscard]] std::uint64_t unlisted() const noexcept { return unlisted_; }
 

@@ -37,7 +37,7 @@ struct Route {
     std::string router{};
     Source source{};
     std::string link{};
-    double age_s = 0;
+    Nanoseconds age{};
     std::uint64_t frames = 0;
     std::string error{};  // why the router's routes are not known
 };

@@ -61,18 +61,17 @@ void find_losses(const Evidence& evidence, Findings& findings) {
 
 void find_own_losses(const Evidence& evidence, Findings& findings) {
     // A small datagram takes this much of a receive buffer (sk_buff and its data); the buffer should last this long.
-    constexpr double bytes_each = 768, seconds = 0.1;
+    constexpr double bytes_each = 768, lasts_s = 0.1;
     for (std::size_t i = 0; i < evidence.sources.size(); ++i) {
         const auto& source = evidence.sources[i];
         std::uint64_t lost = 0;
         for (const auto& loss : evidence.losses)
             if (evidence.source_of(loss.link) == &source) lost += loss.lost;
-        const auto rate = static_cast<double>(source.count("frames_in")) /
-                          std::max(std::chrono::duration<double>(source.duration).count(), 0.1);
+        const auto rate = static_cast<double>(source.count("frames_in")) / std::max(seconds(source.duration), 0.1);
         if (const auto dropped = source.count("kernel_drop"); dropped != 0)
             findings.push_back(words::kernel_drop(source, dropped, lost));
         else if (source.rcvbuf_granted != 0 && source.rcvbuf_granted < source.rcvbuf_asked &&
-                 rate * seconds * bytes_each > static_cast<double>(source.rcvbuf_granted))
+                 rate * lasts_s * bytes_each > static_cast<double>(source.rcvbuf_granted))
             findings.push_back(words::receive_buffer(source, rate));
         if (const auto records = source.count("lapped"); records != 0)
             findings.push_back(words::ring_lapped(source, records));
@@ -123,6 +122,7 @@ void find_hop_losses(const Evidence& evidence, Findings& findings) {
         const auto before = std::ranges::find(evidence.hops_before, hop.name, &Hop::name);
         if (before == evidence.hops_before.end()) continue;
         for (const auto& link : hop.links) {
+            if (link.is_sum) continue;  // a link that closes moves its counts there
             const auto same = std::ranges::find(before->links, link.name, &HopLink::name);
             find_link_losses(evidence, hop, same == before->links.end() ? HopLink{} : *same, link, findings);
         }

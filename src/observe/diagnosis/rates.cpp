@@ -55,7 +55,7 @@ void find_rate(const Evidence& evidence, const OfSource& source, const AskedRate
     if (is_outdone(source, asked)) return;
     const auto last = last_heard(source, asked.target);
     if (last == WallTime::min()) return;
-    const words::Rate rate{.seconds = std::chrono::duration<double>(last - asked.time).count()};
+    const words::Rate rate{.seconds = seconds(last - asked.time)};
     const double expected = asked.hz * rate.seconds;
     if (rate.seconds < least_seconds || (asked.hz > 0 && expected < least_expected)) return;
     const auto count = static_cast<double>(asked.count());

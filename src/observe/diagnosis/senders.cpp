@@ -4,6 +4,9 @@
 #include <array>
 #include <map>
 
+#include "mavloom/msg/high_latency.hpp"
+#include "mavloom/msg/high_latency2.hpp"
+#include "mavloom/msg/hil_sensor.hpp"
 #include "observe/diagnosis/rules.hpp"
 #include "observe/diagnosis/words.hpp"
 
@@ -130,8 +133,9 @@ void find_senders(const Evidence& evidence, Findings& findings) {
 namespace {
 
 // HIGH_LATENCY is sent instead of HEARTBEAT on a slow link. HIL_SENSOR comes from a simulator, which is no vehicle.
-constexpr MessageId high_latency{234}, high_latency2{235}, hil_sensor{107};
-constexpr MessageId radio_status{109}, radio{166};
+bool stands_for_heartbeat(MessageId id) {
+    return id == msg::HighLatency::id || id == msg::HighLatency2::id || id == msg::HilSensor::id;
+}
 
 // A system that sends a stream, and not only answers.
 struct System {
@@ -144,8 +148,8 @@ bool is_exempt(const Evidence& evidence, SystemId system) {
     bool has_others = false;
     for (const auto& stream : evidence.streams) {
         if (stream.source.system != system) continue;
-        if (stream.id == high_latency || stream.id == high_latency2 || stream.id == hil_sensor) return true;
-        has_others = has_others || (stream.id != radio_status && stream.id != radio);
+        if (stands_for_heartbeat(stream.id)) return true;
+        has_others = has_others || !is_of_radio(stream.id);
     }
     return !has_others;
 }

@@ -4,6 +4,7 @@
 
 #include "mavloom/base/counted.hpp"
 #include "mavloom/base/source_text.hpp"
+#include "mavloom/msg/enums/mav_result.hpp"
 #include "observe/diagnosis/word_parts.hpp"
 #include "observe/diagnosis/words.hpp"
 
@@ -33,7 +34,6 @@ std::string loads_text(std::span<const Load> loads) {
 
 Finding rate_not_met(const Evidence& evidence, const AskedRate& asked, const Rate& rate) {
     using How = AskedRate::How;
-    constexpr std::uint8_t accepted = 0;  // MAV_RESULT_ACCEPTED
     const auto name = message_name(evidence, asked.id);
     Finding finding{.id = rate.is_low ? "rate-low" : "rate-high"};
     finding.where = fmt::format("{} of {}", name, source_text(asked.target));
@@ -46,7 +46,7 @@ Finding rate_not_met(const Evidence& evidence, const AskedRate& asked, const Rat
                                    : fmt::format("{} asked by {}", hertz(asked.hz), source_text(asked.asker)));
     if (asked.how == How::request_data_stream)
         finding.why = "It was asked for by REQUEST_DATA_STREAM, which PX4 ignores.";
-    else if (asked.result && *asked.result != accepted)
+    else if (asked.result && *asked.result != msg::MAV_RESULT_ACCEPTED)
         finding.why = fmt::format("The vehicle refused the request (MAV_RESULT {}).", *asked.result);
     else if (asked.how == How::set_message_interval && !asked.result)
         finding.why = "The vehicle did not answer the request: it did not arrive, or nobody routes it there.";

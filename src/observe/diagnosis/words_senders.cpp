@@ -19,6 +19,13 @@ std::string sources_text(std::span<const Source> sources) {
     return text;
 }
 
+std::string links_text(const Evidence& evidence, const SenderStream& sender) {
+    std::string text;
+    for (const auto& [link, frames] : sender.links)
+        text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", evidence.name_of(link), counted(frames, "frame"));
+    return text;
+}
+
 }  // namespace
 
 Finding two_senders(Source sender, const TwoSenders& senders) {
@@ -33,13 +40,10 @@ Finding two_senders(Source sender, const TwoSenders& senders) {
 }
 
 Finding two_links(const Evidence& evidence, std::size_t source, const SenderStream& sender) {
-    std::string links;
-    for (const auto& [link, frames] : sender.links)
-        links += fmt::format("{}{} ({})", links.empty() ? "" : ", ", evidence.name_of(link), counted(frames, "frame"));
     const bool are_copies = sender.copies_across >= sender.conflicts_across;
     auto finding = of_sender("two-links", Severity::warning, sender.source, evidence.sources[source].name);
     finding.source = evidence.sources[source].name;
-    finding.what = fmt::format("It is heard by {} links: {}.", sender.links.size(), links);
+    finding.what = fmt::format("It is heard by {} links: {}.", sender.links.size(), links_text(evidence, sender));
     finding.why = fmt::format(
         "{} {}",
         are_copies ? fmt::format("{} of its frames came as copies of earlier ones.",
@@ -53,13 +57,10 @@ Finding two_links(const Evidence& evidence, std::size_t source, const SenderStre
 }
 
 Finding split_stream(const Evidence& evidence, std::size_t source, const SenderStream& sender, double worst_loss) {
-    std::string links;
-    for (const auto& [link, frames] : sender.links)
-        links += fmt::format("{}{} ({})", links.empty() ? "" : ", ", evidence.name_of(link), counted(frames, "frame"));
     auto finding = of_sender("split-stream", Severity::warning, sender.source, evidence.sources[source].name);
     finding.source = evidence.sources[source].name;
     finding.what = fmt::format("Its frames are split over {} links: {}. Together, nothing is missing.",
-                               sender.links.size(), links);
+                               sender.links.size(), links_text(evidence, sender));
     finding.why = fmt::format(
         "A program that hears only one of the links shows a loss of up to {}, although nothing is "
         "lost.",

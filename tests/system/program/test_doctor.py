@@ -78,6 +78,11 @@ class World:
         sock.connect(("127.0.0.1", port))
         return sock
 
+    def sender(self, **options):
+        """A vehicle with a socket to send by, and the doctor's source that hears it."""
+        port = self.port()
+        return self.udp_to(port), Vehicle(**options), [f"udpin://127.0.0.1:{port}"]
+
     def port(self, kind=socket.SOCK_DGRAM):
         return harness.free_port(kind)
 
@@ -142,8 +147,7 @@ def plant_not_mavlink(world):
 
 
 def plant_damaged_frames(world):
-    port = world.port()
-    sock, vehicle = world.udp_to(port), Vehicle()
+    sock, vehicle, source = world.sender()
 
     def send(n):
         frame = vehicle.next()
@@ -151,12 +155,11 @@ def plant_damaged_frames(world):
         if n % 5 == 0:  # a copy of what was sent, damaged on the way
             sock.send(frame[:-1] + bytes([frame[-1] ^ 1]))
     world.repeat(send)
-    return [f"udpin://127.0.0.1:{port}"]
+    return source
 
 
 def plant_wrong_dialect(world):
-    port = world.port()
-    sock, vehicle = world.udp_to(port), Vehicle()
+    sock, vehicle, source = world.sender()
 
     def send(n):
         sock.send(vehicle.next())
@@ -165,26 +168,24 @@ def plant_wrong_dialect(world):
             crc = mavlink.x25crc(frame[1:-2] + b"\x7b").crc
             sock.send(frame[:-2] + crc.to_bytes(2, "little"))
     world.repeat(send)
-    return [f"udpin://127.0.0.1:{port}"]
+    return source
 
 
 def plant_long_datagrams(world):
-    port = world.port()
-    sock, vehicle = world.udp_to(port), Vehicle()
+    sock, vehicle, source = world.sender()
     world.repeat(lambda n: sock.send(b"".join(vehicle.next() for _ in range(50))), hz=10)
-    return [f"udpin://127.0.0.1:{port}"]
+    return source
 
 
 def plant_lost_before(world):
-    port = world.port()
-    sock, vehicle = world.udp_to(port), Vehicle()
+    sock, vehicle, source = world.sender()
 
     def send(n):
         frame = vehicle.next()
         if n % 80 not in range(40, 55):  # a radio loses frames in bursts
             sock.send(frame)
     world.repeat(send)
-    return [f"udpin://127.0.0.1:{port}"]
+    return source
 
 
 def plant_regular_gaps(world):
@@ -233,22 +234,20 @@ def plant_split_stream(world):
 
 
 def plant_duplicates(world):
-    port = world.port()
-    sock, vehicle = world.udp_to(port), Vehicle()
+    sock, vehicle, source = world.sender()
 
     def send(n):
         frame = vehicle.next()
         sock.send(frame)
         sock.send(frame)
     world.repeat(send)
-    return [f"udpin://127.0.0.1:{port}"]
+    return source
 
 
 def plant_no_heartbeat(world):
-    port = world.port()
-    sock, vehicle = world.udp_to(port), Vehicle(heartbeats=False)
+    sock, vehicle, source = world.sender(heartbeats=False)
     world.repeat(lambda n: sock.send(vehicle.next()))
-    return [f"udpin://127.0.0.1:{port}"]
+    return source
 
 
 def plant_unsigned(world):

@@ -23,7 +23,7 @@ using namespace testing;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-constexpr LinkId one{1}, other{2};
+constexpr LinkId one{1}, two{2};
 
 // A healthy vehicle at 100 Hz on one link, heard for 10 s.
 Evidence healthy() {
@@ -102,11 +102,11 @@ TEST_F(DiagnosisTest, DatagramsThatEthernetSplits) {
 }
 
 TEST_F(DiagnosisTest, CopiesShowHowMuchAStationLoses) {
-    sender().links[other] = 1000;
+    sender().links[two] = 1000;
     sender().frames = 2000;
     sender().copies_across = 1000;
     sender().station_lost = 1000;
-    evidence.links.push_back({other, "udpin#b", 0});
+    evidence.links.push_back({two, "udpin#b", 0});
     ASSERT_THAT(ids(evidence), ElementsAre("two-links"));
     EXPECT_THAT(diagnose(evidence).front().why, ::testing::HasSubstr("about 33.3 %"));
 }
@@ -123,7 +123,7 @@ TEST_F(DiagnosisTest, TwoClocksAreTwoSenders) {
 }
 
 TEST_F(DiagnosisTest, AVehicleWithTwoPortsIsOne) {
-    sender().links[other] = 500;
+    sender().links[two] = 500;
     sender().frames = 1500;
     sender().conflicts_across = 900;
     EXPECT_THAT(ids(evidence), ElementsAre("two-links"));
@@ -132,8 +132,8 @@ TEST_F(DiagnosisTest, AVehicleWithTwoPortsIsOne) {
 }
 
 TEST_F(DiagnosisTest, AStreamThatIsSplitIsWhole) {
-    sender().links = {{one, 500}, {other, 500}};
-    evidence.links.push_back({other, "udpin#b", 0});
+    sender().links = {{one, 500}, {two, 500}};
+    evidence.links.push_back({two, "udpin#b", 0});
     loss().received = loss().lost = 500;
     EXPECT_THAT(ids(evidence), ElementsAre("split-stream"));
     sender().missing = 300;
@@ -209,6 +209,15 @@ TEST_F(DiagnosisTest, OnlyLossesThatGrowAreFound) {
     EXPECT_THAT(ids(evidence), ElementsAre("queue-drop", "port-refused"));
 }
 
+TEST_F(DiagnosisTest, TheCountsOfALinkThatClosedAreOld) {
+    evidence.hops_before = {{.name = "router", .links = {{.name = "closed links", .is_sum = true}}}};
+    evidence.hops_after = evidence.hops_before;
+    auto& sum = evidence.hops_after.front().links.front();
+    sum.losses = {{"queue_age", 12}};
+    sum.refused = 6;
+    EXPECT_THAT(ids(evidence), IsEmpty());
+}
+
 TEST_F(DiagnosisTest, AFullLineNamesItsLargestStream) {
     source().kind = Listened::Kind::serial;
     source().baud = 57'600;
@@ -250,8 +259,8 @@ TEST_F(DiagnosisTest, WhatIsLostBetweenTwoSourcesIsNoLossBeforeTheSecond) {
     evidence.sources.push_back(source());
     evidence.senders.push_back(evidence.senders.front());
     evidence.asked.emplace_back();
-    evidence.links.push_back({other, "second", 1});
-    evidence.losses.push_back({.link = other, .source = vehicle, .received = 900, .lost = 100});
+    evidence.links.push_back({two, "second", 1});
+    evidence.losses.push_back({.link = two, .source = vehicle, .received = 900, .lost = 100});
     EXPECT_THAT(ids(evidence), ElementsAre("lost-before"));
     Passage passage{.source = vehicle, .is_comparable = true, .before = 1000, .lost = 100};
     passage.messages = {{msg::Attitude::id, 900, 100}};

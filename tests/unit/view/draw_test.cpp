@@ -130,7 +130,7 @@ TEST_F(DrawTest, NoRateIsAskedForWithoutAGoodNumber) {
 
 TEST_F(DrawTest, TheRoutesOfARouter) {
     auto shown = taken();
-    shown->routes = {{.router = "router", .source = vehicle, .link = "udpin://:14550", .age_s = 0.25, .frames = 7},
+    shown->routes = {{.router = "router", .source = vehicle, .link = "udpin://:14550", .age = 250ms, .frames = 7},
                      {.router = "other", .error = "it does not answer"}};
     type(U"4");
     const auto all = draw(*shown, state, {80, 24}, Glyphs::ascii).text();
