@@ -6,11 +6,10 @@ import shutil
 import sys
 
 
-def run(otherwise=None) -> None:
+def run(otherwise: str | None = None) -> None:
     """Runs the program of this package, else the one at the path `otherwise`."""
-    program = os.path.join(os.path.dirname(__file__), "bin", "mavloom")
-    if not os.path.isfile(program):
-        program = otherwise
+    packaged = os.path.join(os.path.dirname(__file__), "bin", "mavloom")
+    program = packaged if os.path.isfile(packaged) else otherwise
     if program is None:
         sys.exit("mavloom: there is no program mavloom; install the Debian package mavloom, or the wheel anew: "
                  "pip install --force-reinstall mavloom")

@@ -143,6 +143,7 @@ def test_a_phone_shows_names(page, server):
     assert page.locator("aside th[scope=row]").evaluate_all(cut) == []
     page.keyboard.press("c")
     page.get_by_role("columnheader", name="Since", exact=True).wait_for()
+    page.locator("button.name:visible").first.wait_for()
     widths = page.locator("button.name:visible").evaluate_all("all => all.map(one => one.clientWidth)")
     assert min(widths) > 110, "15 letters"
     assert page.locator("aside th[scope=row]").evaluate_all(cut) == []
