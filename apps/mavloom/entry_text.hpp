@@ -19,7 +19,7 @@ namespace mavloom::app {
     return name.empty() ? fmt::format("{}", value) : std::string(name);
 }
 
-// What a HEARTBEAT tells of its sender: "PX4 QUADROTOR", or "GCS" without an autopilot.
+// The kind of a HEARTBEAT's sender: "PX4 QUADROTOR", or "GCS" without an autopilot.
 [[nodiscard]] inline std::string kind_text(const dialect::Dialect& dialect, std::uint8_t type, std::uint8_t autopilot) {
     constexpr std::uint8_t no_autopilot = 8;  // MAV_AUTOPILOT_INVALID
     auto type_text = entry_text(dialect, "MAV_TYPE", type);
