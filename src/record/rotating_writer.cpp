@@ -70,7 +70,8 @@ bool RotatingWriter::begins_segment(WallTime time, const wire::FrameView& frame)
 
 // Without rotation, a file may have taken the path itself; the recording then continues beside it.
 fs::path RotatingWriter::free_name(WallTime time) const {
-    const auto stem = path_.stem().string() + (rotation_.rotates() ? "-" + name_of(time) : "");
+    auto stem = path_.stem().string();
+    if (rotation_.rotates()) stem.append("-").append(name_of(time));
     const auto extension = path_.extension().string();
     auto name = path_;
     name.replace_filename(stem + extension);

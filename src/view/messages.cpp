@@ -179,7 +179,8 @@ private:
     void draw_heading(Grid& grid, int y, const Line& line) const {
         const auto vehicle = std::ranges::find(shown_.vehicles, line.source, &observe::Vehicle::source);
         auto text = source_text(line.source);
-        if (vehicle != shown_.vehicles.end()) text += " " + entry_text(*shown_.dialect, "MAV_TYPE", vehicle->type);
+        if (vehicle != shown_.vehicles.end())
+            text.append(" ").append(entry_text(*shown_.dialect, "MAV_TYPE", vehicle->type));
         const auto x = grid.put(1, y, text, Ink::accent);
         const auto link = shown_.links.find(line.link);
         const auto end = *std::ranges::max_element(places_.ends);
@@ -217,7 +218,7 @@ bool has_room(const State& state, Column column, int width) {
 
 std::string name_of(const observe::LatestRow& row) {
     auto name = row.message == nullptr ? fmt::format("#{}", row.traffic.id.value) : std::string(row.message->name);
-    if (const auto instance = row.instance()) name += "/" + printable(message::text_of(*instance));
+    if (const auto instance = row.instance()) name.append("/").append(printable(message::text_of(*instance)));
     return name;
 }
 

@@ -33,7 +33,7 @@ std::string round_trip_text(const observe::Vehicle& vehicle) {
 
 std::string text_in(std::size_t column, const observe::Vehicle& its, const dialect::Dialect& dialect) {
     switch (column) {
-        case 0: return " " + source_text(its.source);
+        case 0: return fmt::format(" {}", source_text(its.source));
         case 1: return entry_text(dialect, "MAV_TYPE", its.type);
         case 2: return entry_text(dialect, "MAV_AUTOPILOT", its.autopilot);
         case 3: return its.mode.empty() ? "-" : std::string(its.mode);

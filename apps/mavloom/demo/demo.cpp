@@ -213,17 +213,16 @@ private:
     Exit report() {
         const bool is_whole = tallies_.are_whole();
         const auto status = Signals::status(is_whole ? Exit::done : Exit::mismatch);
-        const auto verdict = is_settled_ ? std::optional(is_whole) : std::nullopt;
-        if (options_.json) return print_at_end(json(verdict, watchers_.latency().figures()).dump() + "\n", status);
+        if (options_.json) return print_at_end(json(is_whole).dump() + "\n", status);
         if (!common_.quiet) summary_.finish(state());
         return status;
     }
 
-    [[nodiscard]] nlohmann::ordered_json json(std::optional<bool> is_whole,
-                                              const std::optional<LatencyFigures>& latency) const {
+    [[nodiscard]] nlohmann::ordered_json json(bool is_whole) const {
+        const auto latency = watchers_.latency().figures();
         nlohmann::ordered_json object{
             {"ok", nullptr}, {"hops", json_of(tallies_)}, {"answers", tallies_.answers()}, {"latency_ms", nullptr}};
-        if (is_whole) object["ok"] = *is_whole;
+        if (is_settled_) object["ok"] = is_whole;
         if (latency)
             object["latency_ms"] = {{"median", milliseconds(latency->median)},
                                     {"p99", milliseconds(latency->p99)},
