@@ -10,6 +10,7 @@
 #include <boost/asio/write.hpp>
 #include <cerrno>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "mavloom/control/control.hpp"
 #include "mavloom/net/run_folder.hpp"
@@ -44,6 +45,29 @@ SetupResult<std::vector<std::string>> answer_of(std::string_view text) {
     return lines;
 }
 
+// The answer of a program, or the error of the connection. Without both, there was no answer in time.
+struct Exchange {
+    std::optional<std::string> answer;
+    error_code error;
+};
+
+// The client shuts down its sending side, so the program closes the connection after the answer.
+Exchange exchange(const std::filesystem::path& path, std::string_view request, std::chrono::milliseconds limit) {
+    asio::io_context context;
+    Local::socket socket(context);
+    Exchange done;
+    socket.connect(Local::endpoint(path.string()), done.error);
+    if (done.error) return done;
+    std::string input, output = std::string(request) + "\n";
+    // Read even if the write failed: a program that turns a client away may still send the reason.
+    asio::async_write(socket, asio::buffer(output), [&](error_code e, std::size_t) {
+        socket.shutdown(Local::socket::shutdown_send, e);
+        asio::async_read(socket, asio::dynamic_buffer(input), [&](error_code, std::size_t) { done.answer = input; });
+    });
+    context.run_for(limit);
+    return done;
+}
+
 bool is_served(const std::filesystem::path& path) {
     asio::io_context context;
     Local::socket socket(context);
@@ -56,19 +80,27 @@ bool is_served(const std::filesystem::path& path) {
     return ::connect(socket.native_handle(), to.data(), static_cast<socklen_t>(to.size())) == 0 || errno == EAGAIN;
 }
 
-// The names of the programs whose control sockets are in the folder.
-std::vector<std::string> names_in(const std::filesystem::path& folder) {
+// Only a simulator knows the request.
+std::string_view kind_of(const std::filesystem::path& path) {
+    constexpr std::chrono::milliseconds limit{300};
+    const auto done = exchange(path, R"({"cmd":"state"})", limit);
+    if (!done.answer) return "busy";
+    return answer_of(*done.answer) ? "simulator" : "router";
+}
+
+// The programs whose control sockets are in the folder.
+std::vector<std::string> programs_in(const std::filesystem::path& folder) {
     std::vector<std::string> names;
     std::error_code failed;
     for (std::filesystem::directory_iterator file(folder, failed), end; !failed && file != end; file.increment(failed))
         if (file->path().extension() == ".ctl" && is_served(file->path()))
-            names.push_back(file->path().stem().string());
+            names.push_back(fmt::format("{} ({})", file->path().stem().string(), kind_of(file->path())));
     std::ranges::sort(names);
     return names;
 }
 
 SetupError no_program(std::string_view name, const std::filesystem::path& path, const error_code& error) {
-    const auto others = names_in(path.parent_path());
+    const auto others = programs_in(path.parent_path());
     const auto hint = others.empty() ? std::string() : fmt::format("; running: {}", fmt::join(others, ", "));
     return {SetupCode::not_found, 0,
             fmt::format("no router or simulator called '{}' runs here ({}: {}){}", name, path.string(), error.message(),
@@ -77,27 +109,20 @@ SetupError no_program(std::string_view name, const std::filesystem::path& path, 
 
 }  // namespace
 
+std::vector<std::string> running_programs() {
+    const auto path = control_path("any");
+    return path ? programs_in(path->parent_path()) : std::vector<std::string>();
+}
+
 SetupResult<std::vector<std::string>> send_request(std::string_view name, std::string_view request,
                                                    std::chrono::milliseconds limit) {
     const auto path = control_path(name);
     if (!path) return tl::unexpected(path.error());
-    asio::io_context context;
-    Local::socket socket(context);
-    error_code error;
-    socket.connect(Local::endpoint(path->string()), error);
-    if (error) return tl::unexpected(no_program(name, *path, error));
-    // The client shuts down its sending side, so the program closes the connection after the answer.
-    std::string input, output = std::string(request) + "\n";
-    bool done = false;
-    // Read even if the write failed: a program that turns a client away may still send the reason.
-    asio::async_write(socket, asio::buffer(output), [&](error_code e, std::size_t) {
-        socket.shutdown(Local::socket::shutdown_send, e);
-        asio::async_read(socket, asio::dynamic_buffer(input), [&](error_code, std::size_t) { done = true; });
-    });
-    context.run_for(limit);
-    if (!done)
+    const auto done = exchange(*path, request, limit);
+    if (done.error) return tl::unexpected(no_program(name, *path, done.error));
+    if (!done.answer)
         return setup_error(SetupCode::unreachable, fmt::format("'{}' did not answer within {} ms", name, limit.count()));
-    return answer_of(input);
+    return answer_of(*done.answer);
 }
 
 }  // namespace mavloom::control

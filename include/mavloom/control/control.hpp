@@ -61,4 +61,8 @@ private:
 [[nodiscard]] SetupResult<std::vector<std::string>> send_request(std::string_view name, std::string_view request,
                                                                  std::chrono::milliseconds limit);
 
+// Returns the routers and simulators whose control sockets are in the folder RUN, for people: "bird (simulator)". Waits
+// up to 0.3 s for each that is busy.
+[[nodiscard]] std::vector<std::string> running_programs();
+
 }  // namespace mavloom::control

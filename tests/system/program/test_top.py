@@ -3,56 +3,18 @@
 import json
 import os
 import re
-import shutil
 import subprocess
 
 import frames
 import harness
 import pytest
-
-
-class Tmux:
-    """A terminal of a size of its own, with one program in it."""
-
-    def __init__(self, folder, *command, columns=80, lines=24, env=()):
-        self.socket = str(folder / "tmux")
-        settings = " ".join(f"{key}={value}" for key, value in env)
-        self.call("-f", "/dev/null", "new-session", "-d", "-x", str(columns), "-y", str(lines),
-                  f"env {settings} {' '.join(map(str, command))}; echo ended with $?; "
-                  "stty -a | grep -o -- '-*icanon'; cat")
-
-    def call(self, *arguments):
-        return subprocess.run(["tmux", "-S", self.socket, *arguments], capture_output=True, text=True, check=True,
-                              env={**os.environ, "LC_ALL": "C.UTF-8"}).stdout
-
-    def type(self, *keys):
-        self.call("send-keys", *keys)
-
-    def shown(self):
-        return self.call("capture-pane", "-p")
-
-    def wait_for(self, pattern):
-        try:
-            return harness.wait_for(lambda: re.search(pattern, self.shown(), re.MULTILINE), what=pattern)
-        except AssertionError as error:
-            raise AssertionError(f"{error}\n{self.shown()}") from None
-
-    def close(self):
-        subprocess.run(["tmux", "-S", self.socket, "kill-server"], capture_output=True, check=False)
+import terminals
 
 
 @pytest.fixture
 def tmux(tmp_path, program):
-    if not shutil.which("tmux"):
-        pytest.skip("tmux is missing: ./run test installs it")
-    opened = []
-
-    def start(*arguments, **options):
-        opened.append(Tmux(tmp_path, program, "top", *arguments, **options))
-        return opened[-1]
-    yield start
-    for terminal in opened:
-        terminal.close()
+    with terminals.opened(tmp_path, program, "top") as start:
+        yield start
 
 
 def test_a_vehicle_is_searched_opened_and_left(tmux, spawn, udp_port):

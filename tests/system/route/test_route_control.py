@@ -270,7 +270,7 @@ def test_without_a_router_the_names_of_others_are_listed(spawn, run, tmp_path):
 
     for command in (("stat",), ("ctl", "router", "links")):
         done = run(*command, env=env)
-        assert done.status == 1 and done.stderr.endswith("; running: bird\n"), done
+        assert done.status == 1 and done.stderr.endswith("; running: bird (simulator)\n"), done
 
 
 def test_the_socket_survives_whatever_is_sent(net):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "commands/ctl_wait.hpp"
+#include "ctl/wait.hpp"
 
 #include <fmt/format.h>
 
