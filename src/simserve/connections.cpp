@@ -28,6 +28,7 @@ std::uint32_t line_speed(const endpoint::Endpoint& endpoint) noexcept {
 std::uint32_t per_flight_second(std::uint64_t bytes_s, double speed) noexcept {
     constexpr double most = 0xFFFF'FFFF;
     if (bytes_s == 0) return 0;
+    if (speed == max_speed) speed = 1;
     return static_cast<std::uint32_t>(std::clamp(static_cast<double>(bytes_s) / speed, 1.0, most));
 }
 
@@ -133,9 +134,17 @@ bool Connections::close_by_name(std::string_view name) {
 
 // ---- links ----------------------------------------------------------------------------------------------------------
 
-void Connections::open_ring_link() {
+void Connections::open_own_links() {
+    const LinkRates rates{.profile = parts_.options.profile, .rates = parts_.options.rates};
     if (const LinkId link = parts_.shared.ring_link(); link != LinkId{})
-        open(link, {.profile = parts_.options.profile, .rates = parts_.options.rates}, parts_.shared.ring_link_name());
+        open(link, rates, parts_.shared.ring_link_name());
+    if (const LinkId link = parts_.recording.link(); link != LinkId{}) open(link, rates, parts_.recording.label());
+}
+
+bool Connections::has_partners() const noexcept {
+    return std::ranges::any_of(open_, [&](const auto& open) {
+        return open.first != parts_.shared.ring_link() && open.first != parts_.recording.link();
+    });
 }
 
 void Connections::open(LinkId link, const LinkRates& rates, std::string_view name) {
@@ -210,6 +219,9 @@ LinkReport Connections::report_of(LinkId link, std::string_view name) const {
     } else if (link == parts_.shared.ring_link()) {
         report.frames = parts_.shared.frames();
         report.bytes = parts_.shared.bytes();
+    } else if (link == parts_.recording.link()) {
+        report.frames = parts_.recording.frames();
+        report.bytes = parts_.recording.bytes();
     }
     parts_.fleet.each([&](const sim::Vehicle& vehicle) {
         auto streams = vehicle.stream_reports(link);

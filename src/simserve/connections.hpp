@@ -18,6 +18,7 @@
 #include "mavloom/simserve/simulator.hpp"
 #include "simserve/fleet.hpp"
 #include "simserve/flight_clock.hpp"
+#include "simserve/flight_recording.hpp"
 #include "simserve/shared_memory.hpp"
 #include "simserve/slow_lines.hpp"
 
@@ -31,6 +32,7 @@ public:
         link::Links& links;
         const FlightClock& clock;
         SharedMemory& shared;
+        FlightRecording& recording;
         SlowLines& lines;
         Fleet& fleet;
         const SimulatorOptions& options;
@@ -45,8 +47,10 @@ public:
     bool remove(std::string_view label);
     void close_inlet();
 
-    // Opens the vehicles on the simulator's own ring.
-    void open_ring_link();
+    // Whether the vehicles stream on another link than the simulator's own.
+    [[nodiscard]] bool has_partners() const noexcept;
+    // Opens the vehicles on the simulator's own ring and recording.
+    void open_own_links();
     // When to call `play_rings` next. That function delivers the frames of the rings that are read.
     [[nodiscard]] MonoTime rings_due();
     void play_rings();

@@ -12,6 +12,7 @@
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/config/keys.hpp"
 #include "mavloom/endpoint/grammar.hpp"
+#include "simserve/time_line.hpp"
 #include "simserve/values.hpp"
 
 namespace mavloom::simserve {
@@ -62,6 +63,19 @@ SetupResult<void> set_duration(Scenario& scenario, Text text) {
     return {};
 }
 
+SetupResult<void> set_speed(Scenario& scenario, Text text) {
+    if (text != "max") return put(parse_number(text, {0.1, 100}), scenario.speed);
+    scenario.speed = max_speed;
+    return {};
+}
+
+SetupResult<void> set_recording(Scenario& scenario, Text text) {
+    if (!text.ends_with(".tlog"))
+        return endpoint::usage(fmt::format("{}: the name of a recording ends in .tlog", in_quotes(text)));
+    scenario.recording = text;
+    return {};
+}
+
 SetupResult<void> set_profile(Scenario& scenario, Text text) {
     sim::Profile profile{};
     if (auto done = put_choice(text, sim::profile_names, profile); !done) return done;
@@ -77,15 +91,14 @@ SetupResult<void> set_capacity(Scenario& scenario, Text text) {
     return put(endpoint::parse_ring_capacity(text), scenario.ring.capacity_bytes);
 }
 
-constexpr std::array<Key<Scenario>, 9> all_sim_keys{{
+constexpr std::array<Key<Scenario>, 11> all_sim_keys{{
     {"name", "", [](Scenario& s, Text t) { return set_name(t, "simulator", s.name); }},
     {"seed", "1", [](Scenario& s, Text t) { return put(parse_integer(t, 0, UINT64_MAX), s.seed); }},
-    {"speed", "1",
-     [](Scenario& s, Text t) {
-         return put(parse_number(t, {0.1, 100}), s.speed);
-     }},
+    {"speed", "1", set_speed},
     {"profile", "", set_profile},
     {"for", "", set_duration},
+    {"start_time", "", [](Scenario& s, Text t) { return put(parse_utc(t), s.start_time); }},
+    {"record", "", set_recording},
     {"report", "false", [](Scenario& s, Text t) { return put(parse_bool(t), s.has_report); }},
     {"ring", "", [](Scenario& s, Text t) { return set_name(t, "ring", s.ring.name); }},
     {"ring_capacity", "8MiB", set_capacity},
@@ -98,13 +111,14 @@ constexpr std::array<Key<Scenario>, 3> all_web_keys{{
     {"host", "", [](Scenario& s, Text t) { return config::set_web_hosts(s.web, t); }},
 }};
 
-SetupResult<void> set_system(ScenarioVehicle& vehicle, Text text) {
+SetupResult<SystemId> parse_system(Text text) {
     const auto system = parse_integer(text, 1, 254);
-    if (!system)
-        return endpoint::usage(
-            fmt::format("{} is not a system id of a vehicle, which is from 1 to 254", in_quotes(text)));
-    vehicle.options.system = SystemId{static_cast<std::uint8_t>(*system)};
-    return {};
+    if (system) return SystemId{static_cast<std::uint8_t>(*system)};
+    return endpoint::usage(fmt::format("{} is not a system id of a vehicle, which is from 1 to 254", in_quotes(text)));
+}
+
+SetupResult<void> set_system(ScenarioVehicle& vehicle, Text text) {
+    return put(parse_system(text), vehicle.options.system);
 }
 
 SetupResult<void> set_ready_after(ScenarioVehicle& vehicle, Text text) {
@@ -112,6 +126,25 @@ SetupResult<void> set_ready_after(ScenarioVehicle& vehicle, Text text) {
 }
 
 constexpr std::size_t max_traffic = 64, max_logs = 32;
+
+SetupResult<void> set_words(ScenarioOrder& order, Text text) {
+    if (const auto good = request_of_order(text, {}); !good) return tl::unexpected(good.error());
+    order.words = text;
+    return {};
+}
+
+SetupResult<void> set_order_system(ScenarioOrder& order, Text text) {
+    const auto system = parse_system(text);
+    if (!system) return tl::unexpected(system.error());
+    order.system = *system;
+    return {};
+}
+
+constexpr std::array<Key<ScenarioOrder>, 3> all_order_keys{{
+    {"at", "", [](ScenarioOrder& o, Text t) { return put(endpoint::parse_duration(t), o.at); }},
+    {"do", "", set_words},
+    {"system", "", set_order_system},
+}};
 
 constexpr std::array<Key<ScenarioVehicle>, 14> all_vehicle_keys{{
     {"kind", "quad", set_kind},
@@ -136,6 +169,7 @@ constexpr std::array<Key<ScenarioVehicle>, 14> all_vehicle_keys{{
 
 std::span<const Key<Scenario>> sim_keys() noexcept { return all_sim_keys; }
 std::span<const Key<Scenario>> web_keys() noexcept { return all_web_keys; }
+std::span<const Key<ScenarioOrder>> order_keys() noexcept { return all_order_keys; }
 std::span<const Key<ScenarioVehicle>> vehicle_keys() noexcept { return all_vehicle_keys; }
 
 SetupResult<void> add_rate(std::vector<sim::MessageRate>& rates, std::string_view message, std::string_view hz) {

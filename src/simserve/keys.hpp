@@ -2,7 +2,9 @@
 // The tables of scenario keys: name, default, and how to parse the text. Private to module simserve.
 #pragma once
 
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "mavloom/simserve/scenario.hpp"
@@ -17,11 +19,19 @@ struct Key {
 };
 
 inline constexpr std::string_view sim_section = "sim", web_section = "web", vehicle_section = "vehicle",
-                                  streams_section = "streams", endpoint_section = "endpoint";
+                                  streams_section = "streams", endpoint_section = "endpoint", order_section = "order";
+
+// An order of the time line, as the file states it.
+struct ScenarioOrder {
+    Nanoseconds at{};
+    std::string words{};
+    std::optional<SystemId> system{};
+};
 
 [[nodiscard]] std::span<const Key<Scenario>> sim_keys() noexcept;
 [[nodiscard]] std::span<const Key<Scenario>> web_keys() noexcept;
 [[nodiscard]] std::span<const Key<ScenarioVehicle>> vehicle_keys() noexcept;
+[[nodiscard]] std::span<const Key<ScenarioOrder>> order_keys() noexcept;
 
 // Adds a rate of [streams] or of an endpoint's `streams`. A message that vehicles do not stream is an error.
 [[nodiscard]] SetupResult<void> add_rate(std::vector<sim::MessageRate>& rates, std::string_view message,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sends the frames of vehicles to live links or into the simulator's own ring. Private to module simserve; single owner
+// Sends the frames of vehicles to live links, or into the simulator's own ring or recording. Private to module simserve; single owner
 // thread.
 #pragma once
 
@@ -8,6 +8,8 @@
 
 #include "mavloom/link/links.hpp"
 #include "mavloom/sim/sink.hpp"
+#include "simserve/flight_clock.hpp"
+#include "simserve/flight_recording.hpp"
 #include "simserve/shared_memory.hpp"
 #include "simserve/slow_lines.hpp"
 
@@ -15,16 +17,21 @@ namespace mavloom::simserve {
 
 class LinkSink final : public sim::Sink {
 public:
-    LinkSink(link::Links& links, SharedMemory& shared) noexcept : links_(links), shared_(shared) {}
+    // All must outlive the object.
+    LinkSink(link::Links& links, const FlightClock& clock, WallTime utc_at_start, SharedMemory& shared,
+             FlightRecording& recording) noexcept
+        : links_(links), clock_(clock), utc_at_start_(utc_at_start), shared_(shared), recording_(recording) {}
 
     void send(LinkId link, const wire::FrameView& frame) override {
         ++frames_;
         bytes_ += frame.size();
+        if (link == recording_.link()) return recording_.write(utc_at_start_ + clock_.at(mono_now()).flight, frame);
         lines_.note_sent(link, frame.size(), links_.now());
         if (link == shared_.ring_link()) return shared_.write(frame);
         links_.send(link, frame);
     }
     [[nodiscard]] bool has_room(LinkId link) const override {
+        if (link == recording_.link()) return true;
         return links_.queued_bytes(link) < bulk_bytes && lines_.has_room(link, links_.now());
     }
     // The links that are serial lines.
@@ -38,7 +45,10 @@ private:
     static constexpr std::size_t bulk_bytes = 4096;
 
     link::Links& links_;
+    const FlightClock& clock_;
+    const WallTime utc_at_start_;
     SharedMemory& shared_;
+    FlightRecording& recording_;
     SlowLines lines_;
     std::uint64_t frames_ = 0, bytes_ = 0;
 };

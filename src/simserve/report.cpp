@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/simserve/report.hpp"
-#include "mavloom/base/durations.hpp"
 
 #include <fmt/format.h>
 
@@ -9,6 +8,7 @@
 
 #include "control/json_request.hpp"
 #include "mavloom/base/counted.hpp"
+#include "mavloom/base/durations.hpp"
 #include "mavloom/control/metrics_text.hpp"
 #include "mavloom/link/snapshot.hpp"
 
@@ -82,15 +82,21 @@ std::vector<NamedCount> counts_of(const SimulatorTotals& totals) {
 struct Snapshot : link::Snapshot {
     Nanoseconds uptime{};
     double speed = 1;
+    sim::FlightTime flight_time{};
+    bool is_paused = false;
     std::vector<NamedCount> counts{};
     std::vector<sim::VehicleStatus> vehicles{};
 };
+
+control::Json speed_of(double speed) { return speed == max_speed ? control::Json("max") : control::Json(speed); }
 
 Snapshot snapshot_of(Simulator& simulator) {
     simulator.links().refresh_counters();
     Snapshot s{link::snapshot_of(simulator.links())};
     s.uptime = simulator.uptime();
     s.speed = simulator.options().speed;
+    s.flight_time = simulator.flight_time();
+    s.is_paused = simulator.is_paused();
     s.counts = counts_of(simulator.totals());
     s.vehicles = statuses_of(simulator.vehicles());
     return s;
@@ -98,7 +104,12 @@ Snapshot snapshot_of(Simulator& simulator) {
 
 void append_stats(std::string& text, const Snapshot& s) {
     append_line(text,
-                {{"kind", "sim"}, {"uptime_s", seconds(s.uptime)}, {"speed", s.speed}, {"vehicles", s.vehicles.size()}},
+                {{"kind", "sim"},
+                 {"uptime_s", seconds(s.uptime)},
+                 {"speed", speed_of(s.speed)},
+                 {"flight_s", seconds(s.flight_time)},
+                 {"paused", s.is_paused},
+                 {"vehicles", s.vehicles.size()}},
                 s.counts);
     for (const auto& endpoint : s.endpoints) {
         control::append_endpoint(text, endpoint);
@@ -137,6 +148,7 @@ struct Row {
 };
 
 Row row_of(const sim::StreamReport& stream, double speed) {
+    if (speed == max_speed) speed = 1;  // nobody sees them; those of the flight clock
     return {stream.asked_hz * speed, stream.achieved_hz * speed, milliseconds(stream.lateness.at(0.5)) / speed,
             milliseconds(stream.lateness.at(0.99)) / speed};
 }
@@ -159,6 +171,12 @@ void append_streams(std::string& text, const LinkReport& report, double speed) {
 }
 
 }  // namespace
+
+Report report_clock(Simulator& simulator) {
+    return control::succeeded([flight = simulator.flight_time(), is_paused = simulator.is_paused()](std::string& text) {
+        append_line(text, {{"kind", "clock"}, {"flight_s", seconds(flight)}, {"paused", is_paused}});
+    });
+}
 
 Report report_streams(Simulator& simulator) {
     return control::succeeded([reports = simulator.reports(), speed = simulator.options().speed](std::string& text) {

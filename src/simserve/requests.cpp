@@ -157,6 +157,26 @@ Report remove(Simulator& simulator, const std::string& name) {
     return control::succeeded();
 }
 
+Report pause(Simulator& simulator, const Json&) {
+    simulator.pause();
+    return report_clock(simulator);
+}
+
+Report resume(Simulator& simulator, const Json&) {
+    simulator.resume();
+    return report_clock(simulator);
+}
+
+Report step(Simulator& simulator, const Json& request) {
+    constexpr double most_s = std::chrono::duration<double>(Simulator::max_step).count();
+    const auto time = number_at(request, "seconds").value_or(std::nullopt);
+    if (!time || !(*time > 0 && *time <= most_s))
+        return failed(fmt::format("step needs a time of the flight, up to {} s", most_s));
+    if (!simulator.step(std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(*time))))
+        return failed("the flight clock runs; pause it first");
+    return report_clock(simulator);
+}
+
 using Command = control::Command<Simulator>;
 
 constexpr std::array commands{
@@ -167,6 +187,9 @@ constexpr std::array commands{
     Command{"goto", go_to},
     Command{"mode", set_mode},
     Command{"param", parameter},
+    Command{"pause", pause},
+    Command{"resume", resume},
+    Command{"step", step},
     Command{"links", [](Simulator& s, const Json&) { return report_links(s); }},
     Command{"streams", [](Simulator& s, const Json&) { return report_streams(s); }},
     Command{"stats", [](Simulator& s, const Json&) { return report_stats(s); }},

@@ -13,6 +13,7 @@
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/endpoint/grammar.hpp"
 #include "simserve/keys.hpp"
+#include "simserve/time_line.hpp"
 #include "simserve/values.hpp"
 
 namespace mavloom::simserve {
@@ -27,7 +28,7 @@ using config::Variables;
 namespace {
 
 constexpr std::array sections{sim_section, web_section, streams_section};
-constexpr std::array lists{vehicle_section, endpoint_section};
+constexpr std::array lists{vehicle_section, endpoint_section, order_section};
 // Keys of [[endpoint]] that only scenarios have.
 constexpr std::string_view profile_key = "profile", streams_key = "streams";
 
@@ -55,6 +56,9 @@ public:
         for (const Table& table : document_.tables)
             if (table.name == endpoint_section)
                 if (auto done = read(table); !done) return tl::unexpected(std::move(done.error()));
+        for (const Table& table : document_.tables)
+            if (table.name == order_section)
+                if (auto done = read_order(table); !done) return tl::unexpected(std::move(done.error()));
         return std::move(scenario_);
     }
 
@@ -225,6 +229,30 @@ private:
         return document_.error(section.line, what);
     }
 
+    // ---- orders ----
+
+    SetupResult<void> read_order(const Table& table) {
+        if (auto done = check_keys(table, order_keys()); !done) return done;
+        ScenarioOrder order;
+        config::Section section{std::string(order_section), {}, {}, table.line};
+        for (const auto& key : order_keys()) {
+            auto setting = read_key(order_section, key, &table, order);
+            if (!setting) return tl::unexpected(std::move(setting.error()));
+            section.settings.push_back(std::move(*setting));
+        }
+        for (const auto key : {"at", "do"})
+            if (table.find(key) == nullptr)
+                return document_.error(table.line, fmt::format("an order needs the key {}, as in at = \"5s\", do = "
+                                                               "\"takeoff 20\"",
+                                                               key));
+        auto request = request_of_order(order.words, order.system);
+        if (!request) return document_.error(table.line, request.error().text);
+        section.label = find(section, "at").value;
+        scenario_.orders.push_back({order.at, std::move(order.words), std::move(*request)});
+        scenario_.sections.push_back(std::move(section));
+        return {};
+    }
+
     // ---- endpoints ----
 
     SetupResult<void> read(const Table& table) {
@@ -391,6 +419,8 @@ SetupResult<void> check_endpoints(const Scenario& scenario, const Document& docu
 }  // namespace
 
 SetupResult<void> check_scenario(const Scenario& scenario, const Document& document) {
+    if (scenario.speed == max_speed && !scenario.duration)
+        return setup_error(SetupCode::usage, "speed max needs the length of the flight: for, or --for 10m");
     if (auto good = check_endpoints(scenario, document); !good) return good;
     return check_parameters(scenario, document);
 }

@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/simserve/simulator.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "mavloom/base/durations.hpp"
 #include "mavloom/control/post_box.hpp"
 #include "mavloom/link/flush.hpp"
 #include "simserve/connections.hpp"
 #include "simserve/fleet.hpp"
 #include "simserve/flight_clock.hpp"
+#include "simserve/flight_recording.hpp"
 #include "simserve/link_sink.hpp"
 #include "simserve/shared_memory.hpp"
+#include "simserve/time_line.hpp"
 
 namespace mavloom::simserve {
 
@@ -19,19 +25,39 @@ using namespace std::chrono_literals;
 
 static constexpr Nanoseconds maintain_interval = 1s, page_interval = 250ms;
 
+namespace {
+
+// Empty if the request was executed.
+std::string error_of(const control::Report& report) {
+    std::string text;
+    for (auto more = report.next_text(); !more.empty(); more = report.next_text()) text += more;
+    if (!text.empty()) text.pop_back();
+    const auto last = nlohmann::json::parse(text.substr(text.rfind('\n') + 1), nullptr, false);
+    return last.is_object() ? last.value("error", std::string()) : "no answer";
+}
+
+SimulatorOptions dated(SimulatorOptions options) {
+    if (options.utc_at_start == WallTime{}) options.utc_at_start = wall_now();
+    return options;
+}
+
+}  // namespace
+
 Simulator::Simulator(const dialect::Dialect& dialect, const SimulatorOptions& options, Notice notice,
                      std::unique_ptr<link::Links> links)
     : dialect_(dialect),
-      options_(options),
+      options_(dated(options)),
       notice_(std::move(notice)),
       links_(std::move(links)),
       posted_(std::make_unique<control::PostBox>()),
       clock_(std::make_unique<FlightClock>(options.speed)),
+      time_line_(std::make_unique<TimeLine>(options.orders)),
       shared_(std::make_unique<SharedMemory>()),
-      sink_(std::make_unique<LinkSink>(*links_, *shared_)),
+      recording_(std::make_unique<FlightRecording>()),
+      sink_(std::make_unique<LinkSink>(*links_, *clock_, options_.utc_at_start, *shared_, *recording_)),
       fleet_(std::make_unique<Fleet>(*sink_)),
-      connections_(std::make_unique<Connections>(
-          Connections::Parts{dialect_, *links_, *clock_, *shared_, sink_->lines(), *fleet_, options_, notice_})) {}
+      connections_(std::make_unique<Connections>(Connections::Parts{dialect_, *links_, *clock_, *shared_, *recording_,
+                                                                    sink_->lines(), *fleet_, options_, notice_})) {}
 
 Simulator::~Simulator() { shared_->close(); }  // stops the thread that may call post()
 
@@ -52,11 +78,19 @@ SetupResult<void> Simulator::open_inlet(const config::RingConfig& config, const 
     return connections_->open_inlet(config, socket);
 }
 
+// Its id follows those of the ring, and the links' ids follow it.
+SetupResult<void> Simulator::open_recording(const std::filesystem::path& path) {
+    const LinkId link{shared_->ring_link().value + 1};
+    auto opened = recording_->open(path, link);
+    if (opened) links_->count_from(link);
+    return opened;
+}
+
 SetupResult<void> Simulator::open_page(const std::string& name) { return shared_->open_page(name); }
 
 SetupResult<void> Simulator::add(const sim::VehicleOptions& options, Parameters parameters) {
     sim::VehicleOptions dated = options;
-    if (dated.utc_at_start == WallTime{}) dated.utc_at_start = wall_now();
+    if (dated.utc_at_start == WallTime{}) dated.utc_at_start = options_.utc_at_start;
     if (auto added = fleet_->add(dated, clock_->at(mono_now())); !added) return added;
     sim::Vehicle& vehicle = *fleet_->find(options.system);
     for (const auto& [name, value] : parameters)
@@ -77,28 +111,88 @@ bool Simulator::remove(std::string_view label) {
 void Simulator::turn(MonoTime deadline) {
     if (!clock_->has_started()) {
         clock_->start(mono_now());
-        connections_->open_ring_link();
+        connections_->open_own_links();
     }
-    deadline = std::min({deadline, clock_->when(fleet_->next_due()), connections_->rings_due(), maintain_due_});
+    deadline = std::min({deadline, next_due(), connections_->rings_due(), maintain_due_});
     links_->turn(*connections_, posted_->empty() ? deadline : MonoTime{});
     connections_->play_rings();
+    fly();
     const MonoTime now = mono_now();
-    fleet_->advance(clock_->at(now));
     if (!posted_->empty()) posted_->run_one();  // one a turn, because reports take long and frames go first
     if (now >= page_due_) refresh_page(now);
     if (now >= maintain_due_) maintain(now);
 }
 
-void Simulator::finish(Nanoseconds limit) {
+MonoTime Simulator::next_due() const {
+    if (has_ended()) return MonoTime::max();
+    return clock_->when(std::min({fleet_->next_due(), time_line_->next_due(), options_.flight_end}));
+}
+
+void Simulator::fly() {
+    if (!clock_->is_free()) {
+        const auto now = clock_->at(mono_now());
+        fleet_->advance(now);
+        return run_orders(now);
+    }
+    // What has partners sends each step before the next one, so that their queues do not overflow.
+    const MonoTime end = mono_now() + (connections_->has_partners() ? 0ms : 1ms);
+    while (!clock_->is_paused() && !has_ended()) {
+        fly_to(std::min({fleet_->next_due(), time_line_->next_due(), options_.flight_end}));
+        if (mono_now() >= end) return;
+    }
+}
+
+// Only if the clock is free or paused.
+void Simulator::fly_to(sim::FlightTime flight) {
+    clock_->set(flight);
+    const auto now = clock_->at(mono_now());
+    fleet_->advance(now);
+    run_orders(now);
+}
+
+void Simulator::run_orders(sim::Moment now) {
+    while (time_line_->next_due() <= now.flight) {
+        const auto& order = time_line_->take();
+        if (const auto error = error_of(answer(order.request)); !error.empty())
+            notice_(config::LogLevel::warning,
+                    fmt::format("order '{}' at {:g} s: {}", order.text, seconds(order.at), error));
+    }
+}
+
+sim::FlightTime Simulator::flight_time() const { return clock_->at(mono_now()).flight; }
+
+bool Simulator::has_ended() const {
+    return recording_->error() || (clock_->is_free() && flight_time() >= options_.flight_end);
+}
+
+void Simulator::pause() { clock_->pause(mono_now()); }
+void Simulator::resume() { clock_->resume(mono_now()); }
+bool Simulator::is_paused() const { return clock_->is_paused(); }
+
+bool Simulator::step(Nanoseconds time) {
+    if (!clock_->is_paused()) return false;
+    const auto end = flight_time() + std::min(time, max_step);
+    const auto next = [&] { return std::max(std::min(fleet_->next_due(), time_line_->next_due()), flight_time()); };
+    for (auto at = next(); at < end; at = next()) {
+        fly_to(at);
+        links_->turn(*connections_, MonoTime{});  // or the queues would keep only the newest values
+    }
+    fly_to(end);
+    return true;
+}
+
+SetupResult<void> Simulator::finish(Nanoseconds limit) {
     link::flush(*links_, *connections_, limit);
     while (!posted_->empty()) posted_->run_one();
     connections_->close_inlet();
     shared_->close();
+    return recording_->close();
 }
 
 void Simulator::maintain(MonoTime now) {
     maintain_due_ = now + maintain_interval;
     connections_->refill_lines();
+    recording_->flush();
     for (const auto& text : shared_->maintain(*links_)) notice_(config::LogLevel::warning, text);
 }
 

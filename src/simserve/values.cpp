@@ -50,6 +50,15 @@ SetupResult<double> parse_number(std::string_view text, Range range) {
     return value;
 }
 
+SetupResult<WallTime> parse_utc(std::string_view text) {
+    std::tm fields{};
+    const std::string whole(text);
+    const char* const end = strptime(whole.c_str(), "%Y-%m-%dT%H:%M:%SZ", &fields);
+    const auto seconds = end == whole.c_str() + whole.size() ? timegm(&fields) : -1;
+    if (seconds > 0) return WallTime{std::chrono::seconds{seconds}};
+    return usage(fmt::format("{} is not a time in UTC, such as 2026-11-29T12:00:00Z", in_quotes(text)));
+}
+
 SetupResult<std::size_t> parse_choice(std::string_view text, std::span<const std::string_view> choices) {
     const auto choice = std::ranges::find(choices, text);
     if (choice == choices.end())

@@ -17,6 +17,8 @@ struct Range {
 };
 // A finite number within the range.
 [[nodiscard]] SetupResult<double> parse_number(std::string_view text, Range range);
+// "2026-11-29T12:00:00Z".
+[[nodiscard]] SetupResult<WallTime> parse_utc(std::string_view text);
 // The index of a word in a list.
 [[nodiscard]] SetupResult<std::size_t> parse_choice(std::string_view text, std::span<const std::string_view> choices);
 

@@ -7,6 +7,7 @@
 
 #include "command.hpp"
 #include "frames/receiving.hpp"
+#include "mavloom/base/durations.hpp"
 #include "mavloom/control/service_manager.hpp"
 #include "mavloom/simserve/report.hpp"
 #include "mavloom/simserve/scenario.hpp"
@@ -54,8 +55,13 @@ constexpr KeyOption key_options[] = {
     {"--profile", "sim", "profile",
      "which messages to stream, and how often: lite, default, px4-normal, px4-onboard, ardupilot, original", "NAME"},
     {"--seed", "sim", "seed", "seed of the random numbers; the same seed gives the same flight (default: 1)", "N"},
-    {"--speed", "sim", "speed", "speed of the flight clock, 0.1 to 100 (default: 1)", "X"},
-    {"--for", "sim", "for", "end after this time: 10s, 2m", "TIME"},
+    {"--speed", "sim", "speed",
+     "speed of the flight clock, 0.1 to 100 (default: 1), or max: as fast as the vehicles can fly", "X"},
+    {"--for", "sim", "for", "end after this time: 10s, 2m; with --speed max, of the flight", "TIME"},
+    {"--start-time", "sim", "start_time", "UTC at the begin of the flight, as in 2026-11-29T12:00:00Z (default: now)",
+     "TIME"},
+    {"--record", "sim", "record", "record what the vehicles send, with the times of the flight clock; opens no port",
+     "FILE.tlog"},
     {"--report", "sim", "report", "at the end, print how well each stream kept its rate", nullptr},
     {"--ring", "sim", "ring", "also write all frames of the vehicles into the ring /dev/shm/mavloom.NAME", "NAME"},
     {"--name", "sim", "name", "name for `mavloom ctl` and `stat` (default: the name of the ring, or sim)", "NAME"},
@@ -123,7 +129,7 @@ SetupResult<Scenario> make_scenario(const SimOptions& options) {
         return tl::unexpected(std::move(added.error()));
     if (auto added = add_endpoints(options.listen, "--listen", true, *scenario); !added)
         return tl::unexpected(std::move(added.error()));
-    if (scenario->endpoints.empty() && scenario->ring.name.empty())
+    if (scenario->endpoints.empty() && scenario->ring.name.empty() && scenario->recording.empty())
         scenario->endpoints.push_back({*endpoint::parse_endpoint(usual_destination)});
     return scenario;
 }
@@ -163,9 +169,10 @@ Exit print_report(const SimOptions& options, const Scenario& scenario, const Sim
 
 void fly(const Scenario& scenario, Simulator& simulator) {
     auto manager = control::ServiceManager::from_environment();
-    const MonoTime end = scenario.duration ? mono_now() + *scenario.duration : MonoTime::max();
+    const bool ends_by_clock = scenario.duration && scenario.speed != simserve::max_speed;
+    const MonoTime end = ends_by_clock ? mono_now() + *scenario.duration : MonoTime::max();
     manager.ready();
-    while (!Signals::received() && mono_now() < end) {
+    while (!Signals::received() && !simulator.has_ended() && mono_now() < end) {
         simulator.turn(std::min(end, manager.watchdog_due()));
         manager.feed(mono_now());
     }
@@ -179,6 +186,9 @@ SetupResult<std::unique_ptr<Simulator>> make_simulator(const Common& common, con
     };
     auto simulator = Simulator::create(dialect,
                                        {.speed = scenario.speed,
+                                        .flight_end = scenario.duration.value_or(sim::FlightTime::max()),
+                                        .utc_at_start = scenario.start_time,
+                                        .orders = scenario.orders,
                                         .profile = scenario.profile,
                                         .rates = scenario.rates,
                                         .keeps_reports = scenario.has_report},
@@ -186,12 +196,20 @@ SetupResult<std::unique_ptr<Simulator>> make_simulator(const Common& common, con
     if (!simulator) return simulator;
     if (auto opened = open_shared(common, scenario, **simulator); !opened)
         return tl::unexpected(std::move(opened.error()));
+    if (!scenario.recording.empty())
+        if (auto opened = (*simulator)->open_recording(scenario.recording); !opened)
+            return tl::unexpected(std::move(opened.error()));
     for (const auto& vehicle : scenario.each_vehicle())
         if (auto added = (*simulator)->add(vehicle.options, vehicle.parameters); !added)
             return tl::unexpected(std::move(added.error()));
     for (const auto& endpoint : scenario.endpoints)
         if (auto added = (*simulator)->add(endpoint); !added) return tl::unexpected(std::move(added.error()));
     return simulator;
+}
+
+void log_recording(const Common& common, const Scenario& scenario, const Simulator& simulator) {
+    const auto flight = seconds(simulator.flight_time()), real = seconds(simulator.uptime());
+    print_notice(common, fmt::format("{}: {:.1f} s of flight in {:.2f} s", scenario.recording, flight, real));
 }
 
 Exit simulate(const Common& common, const SimOptions& options) {
@@ -216,7 +234,8 @@ Exit simulate(const Common& common, const SimOptions& options) {
     log_vehicles(common, *scenario);
     log_ports(common, (*simulator)->links().endpoints());
     fly(*scenario, **simulator);
-    (*simulator)->finish(sim_send_limit);
+    if (const auto finished = (*simulator)->finish(sim_send_limit); !finished) return fail(finished.error());
+    if (!scenario->recording.empty()) log_recording(common, *scenario, **simulator);
     return Signals::status(print_report(options, *scenario, **simulator, Exit::done));
 }
 
@@ -253,6 +272,7 @@ Run declare_sim(Arguments command, const Common& common) {
         "  mavloom sim --vehicle plane --autopilot ardupilot --listen tcpin://127.0.0.1:5760\n"
         "  mavloom sim --vehicles 5 --home 47.3977,8.5456,489,90 --to udpout://192.168.1.20:14550\n"
         "  mavloom sim scenario.toml --for 60s --report\n"
+        "  mavloom sim --speed max --for 10m --record flight.tlog\n"
         "  mavloom ctl sim takeoff 10");
     return [options, &common] { return simulate(common, *options); };
 }

@@ -11,6 +11,7 @@
 #include "command.hpp"
 #include "ctl/answers.hpp"
 #include "ctl/wait.hpp"
+#include "mavloom/base/durations.hpp"
 #include "mavloom/base/shown.hpp"
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/control/control.hpp"
@@ -60,6 +61,9 @@ const std::vector<Action>& actions() {
          2,
          "goto takes latitude and longitude in degrees, and the altitude above home in metres if it is to change",
          true},
+        {"pause", {}, 0, {}, true},
+        {"resume", {}, 0, {}, true},
+        {"step", {"seconds"}, 1, "step takes a time of the flight, such as 10ms", true},
         {"wait", {"state", "metres"}, 1, "wait takes ready, armed, disarmed, landed, or alt and metres", true},
         {"param", {"name", "value"}, 1, "param takes the name of a parameter, and its new value if it is to be set", true},
     };
@@ -80,6 +84,10 @@ SetupResult<double> number_of(std::string_view what, const std::string& text) {
     return value;
 }
 
+SetupResult<double> seconds_of(const std::string& text) {
+    return endpoint::parse_duration(text).map([](Nanoseconds time) { return seconds(time); });
+}
+
 SetupResult<void> add_arguments(const CtlOptions& options, const Action& action, Json& request) {
     if (options.arguments.size() < action.fewest) return setup_error(SetupCode::usage, std::string(action.missing));
     if (options.arguments.size() > action.arguments.size())
@@ -93,7 +101,7 @@ SetupResult<void> add_arguments(const CtlOptions& options, const Action& action,
             request[std::string(key)] = options.arguments[i];
             continue;
         }
-        const auto number = number_of(key, options.arguments[i]);
+        const auto number = key == "seconds" ? seconds_of(options.arguments[i]) : number_of(key, options.arguments[i]);
         if (!number) return tl::unexpected(number.error());
         request[std::string(key)] = *number;
     }
@@ -199,7 +207,7 @@ Run declare_ctl(Arguments command, const Common&) {
     command.add_option("action", "ACTION", options->action,
                        "links, stats, add URL, remove NAME; of a router: routes; of a simulator: streams, state, arm, "
                        "disarm, takeoff ALTITUDE, land, rtl, goto LATITUDE LONGITUDE [ALTITUDE], mode NAME, param NAME "
-                       "[VALUE], wait STATE (ready, armed, disarmed, landed, alt METRES)");
+                       "[VALUE], wait STATE (ready, armed, disarmed, landed, alt METRES), pause, resume, step TIME");
     command.add_option("argument", "ARGUMENT", options->arguments, "what the action takes");
     command.add_option("--system", "N", options->system, "the vehicle with this system id (default: all)");
     command.add_option("--for", "TIME", options->limit, "`wait` ends after this time, with status 1")

@@ -15,10 +15,12 @@ namespace mavloom::simserve {
 
 using control::Report;
 
-// `report_state`, `report_links`, `report_streams` and `report_stats` end with the line {"ok":true}.
+// All but the metrics end with the line {"ok":true}.
 
 // One {"kind":"vehicle",...} line for each of the vehicles.
 [[nodiscard]] Report report_state(const std::vector<sim::Vehicle*>& vehicles);
+// One "clock" line.
+[[nodiscard]] Report report_clock(Simulator& simulator);
 // One "link" line for each current link.
 [[nodiscard]] Report report_links(Simulator& simulator);
 // One "stream" line for each stream of each link.

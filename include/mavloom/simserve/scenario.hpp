@@ -35,7 +35,10 @@ struct Scenario {
     double speed = 1;
     std::optional<sim::Profile> profile{};
     std::vector<sim::MessageRate> rates{};
-    std::optional<Nanoseconds> duration{};  // empty: until a signal
+    std::optional<Nanoseconds> duration{};  // empty: until a signal; at `max_speed`, of the flight
+    WallTime start_time{};                  // UTC at flight time 0; the epoch: when the simulator starts
+    std::string recording;                  // path of the tlog file that the vehicles send to; empty: none
+    std::vector<TimedOrder> orders{};
     bool has_report = false;
     config::RingConfig ring{};  // without a name: no ring
     std::optional<endpoint::HostPort> metrics{};

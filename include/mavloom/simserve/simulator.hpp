@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -31,8 +32,10 @@ namespace mavloom::simserve {
 class Connections;
 class Fleet;
 class FlightClock;
+class FlightRecording;
 class LinkSink;
 class SharedMemory;
+class TimeLine;
 
 struct SimEndpoint {
     // The option `max_bytes` limits the telemetry on each of its links in real time, summed over all vehicles. A serial
@@ -42,8 +45,22 @@ struct SimEndpoint {
     std::vector<sim::MessageRate> rates{};  // these take precedence over the rates of SimulatorOptions
 };
 
+// The speed of a flight clock that runs as fast as the vehicles can fly.
+inline constexpr double max_speed = std::numeric_limits<double>::infinity();
+
+// An order to vehicles at a time of the flight.
+struct TimedOrder {
+    sim::FlightTime at{};
+    std::string text;     // as the user wrote it
+    std::string request;  // as `mavloom ctl` sends it
+};
+
 struct SimulatorOptions {
-    double speed = 1;                       // of the flight clock; protocol time-outs run in real time
+    // Of the flight clock. Protocol time-outs run in real time, but at `max_speed` by the flight clock, too.
+    double speed = 1;
+    sim::FlightTime flight_end = sim::FlightTime::max();  // at `max_speed`: the vehicles do not fly on
+    WallTime utc_at_start{};  // UTC at flight time 0; the epoch: the time at which it begins
+    std::vector<TimedOrder> orders{};
     std::optional<sim::Profile> profile{};  // empty: the usual profile of each vehicle's autopilot
     std::vector<sim::MessageRate> rates{};  // each replaces the profile's rate of that message
     bool keeps_reports = false;             // keeps the reports of links that are gone
@@ -86,6 +103,9 @@ public:
     [[nodiscard]] SetupResult<void> open_ring(const config::RingConfig& config);
     // Opens the ring's inlet, the socket through which readers of the ring send frames. See Links::add_inlet.
     [[nodiscard]] SetupResult<void> open_inlet(const config::RingConfig& config, const std::filesystem::path& socket);
+    // Records what the vehicles send into this tlog file, with the times of the flight clock, whatever its speed. The
+    // recording is a link. It waits for the disk. Call it before the first turn.
+    [[nodiscard]] SetupResult<void> open_recording(const std::filesystem::path& path);
     // Opens a counter page of this name. Call it only if there is no ring.
     [[nodiscard]] SetupResult<void> open_page(const std::string& name);
     using Parameters = std::span<const std::pair<std::string, double>>;
@@ -103,8 +123,11 @@ public:
 
     // Runs one turn: waits until a vehicle is due, something arrives, or `deadline`, and handles all of it.
     void turn(MonoTime deadline);
-    // Sends what is queued, for at most `limit`, and removes the ring. Reports stay available.
-    void finish(Nanoseconds limit);
+    // Sends what is queued, for at most `limit`, removes the ring, and closes the recording. Reports stay available. An
+    // error is that of the recording: the disk refused frames.
+    [[nodiscard]] SetupResult<void> finish(Nanoseconds limit);
+    // True at `flight_end`, or if the recording failed.
+    [[nodiscard]] bool has_ended() const;
 
     // Async-signal-safe.
     void wake() noexcept { links_->wake(); }
@@ -125,6 +148,14 @@ public:
     [[nodiscard]] std::vector<LinkReport> reports() const;
     [[nodiscard]] SimulatorTotals totals() const;
     [[nodiscard]] const SimulatorOptions& options() const noexcept { return options_; }
+    [[nodiscard]] sim::FlightTime flight_time() const;
+    // The flight clock stands still or goes on. `step` lets a clock that stands still go on for this time, at most
+    // `max_step`, and returns false if it does not stand still. Frames from partners are answered all the same.
+    static constexpr Nanoseconds max_step = std::chrono::minutes{1};
+    void pause();
+    void resume();
+    [[nodiscard]] bool is_paused() const;
+    [[nodiscard]] bool step(Nanoseconds time);
     [[nodiscard]] Nanoseconds uptime() const { return mono_now() - created_; }
     // Logs a line through the simulator's Notice.
     void notify(config::LogLevel level, std::string_view text) const { notice_(level, text); }
@@ -133,6 +164,10 @@ private:
     Simulator(const dialect::Dialect& dialect, const SimulatorOptions& options, Notice notice,
               std::unique_ptr<link::Links> links);
 
+    [[nodiscard]] MonoTime next_due() const;
+    void fly();
+    void fly_to(sim::FlightTime flight);
+    void run_orders(sim::Moment now);
     void maintain(MonoTime now);
     void refresh_page(MonoTime now);
 
@@ -142,7 +177,9 @@ private:
     std::unique_ptr<link::Links> links_;
     std::unique_ptr<control::PostBox> posted_;
     std::unique_ptr<FlightClock> clock_;
+    std::unique_ptr<TimeLine> time_line_;
     std::unique_ptr<SharedMemory> shared_;
+    std::unique_ptr<FlightRecording> recording_;
     std::unique_ptr<LinkSink> sink_;
     std::unique_ptr<Fleet> fleet_;
     std::unique_ptr<Connections> connections_;

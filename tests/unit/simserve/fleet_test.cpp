@@ -32,6 +32,33 @@ TEST(FlightClock, RunsAtItsSpeed) {
     EXPECT_EQ(sut.at(start + 3s).real, start + 3s);
 }
 
+TEST(FlightClock, StandsStillAndGoesOn) {
+    FlightClock sut(10);
+    const MonoTime start{5s};
+    sut.start(start);
+
+    sut.pause(start + 1s);
+    EXPECT_EQ(sut.at(start + 7s).flight, 10s);
+    EXPECT_EQ(sut.when(11s), MonoTime::max());
+    sut.set(12s);
+    sut.resume(start + 9s);
+
+    EXPECT_EQ(sut.at(start + 10s).flight, 22s);
+    EXPECT_EQ(sut.when(32s), start + 11s + 1ns);
+}
+
+TEST(FlightClock, ThatIsFreeShowsWhatItIsSetTo) {
+    FlightClock sut(max_speed);
+    const MonoTime start{5s};
+    sut.start(start);
+
+    sut.set(1h);
+
+    EXPECT_EQ(sut.at(start + 1s).flight, 1h);
+    EXPECT_EQ(sut.at(start + 1s).real, start + 1h) << "time-outs, too";
+    EXPECT_LE(sut.when(2h), start);
+}
+
 // A loop that slept until `when` must find the vehicle due, or it would spin.
 TEST(FlightClock, HasReachedAnInstantWhenItReportsIt) {
     for (const double speed : {0.1, 0.3, 1.0, 7.0, 33.3, 100.0}) {

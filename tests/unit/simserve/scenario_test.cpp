@@ -114,6 +114,30 @@ TEST(Scenario, KnowsItselfFromARoutersConfiguration) {
     EXPECT_FALSE(is_scenario(*config::parse_document("[router]\n[[endpoint]]\nurl = 'udpin://0.0.0.0:1'\n", "x")));
 }
 
+TEST(Scenario, OrdersAreRequestsOfTheControlSocket) {
+    const auto sut = read(R"(
+[[order]]
+at = "1.5s"
+do = "goto 47.5 -8 30"
+system = 3
+[[order]]
+at = "1m"
+do = "land"
+)");
+
+    ASSERT_EQ(sut.orders.size(), 2u);
+    EXPECT_EQ(sut.orders[0].at, 1500ms);
+    EXPECT_EQ(sut.orders[0].request, R"({"cmd":"goto","system":3,"latitude":47.5,"longitude":-8.0,"altitude":30.0})");
+    EXPECT_EQ(sut.orders[1].request, R"({"cmd":"mode","mode":"Land"})");
+}
+
+TEST(ScenarioValues, TimesAreInUtc) {
+    EXPECT_EQ(parse_utc("2026-11-29T12:00:00Z").value(), WallTime{std::chrono::seconds{1'795'953'600}});
+    for (const auto* const text :
+         {"", "2026-11-29", "2026-11-29T12:00:00", "2026-11-29T12:00:00Z ", "2026-13-29T12:00:00Z"})
+        EXPECT_FALSE(parse_utc(text)) << text;
+}
+
 TEST(Scenario, ItsNameIsThatOfItsRing) {
     EXPECT_EQ(read("[sim]\nring = \"fleet\"\n").control_name(), "fleet");
     EXPECT_EQ(read("[sim]\nring = \"fleet\"\nname = \"other\"\n").control_name(), "other");

@@ -9,6 +9,10 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
 #include "mavloom/dialect/dialect.hpp"
 #include "mavloom/simserve/report.hpp"
 #include "support/count_allocations.hpp"
@@ -112,6 +116,33 @@ TEST_F(SimulatorTest, AValueOfTheWrongTypeIsAnError) {
     EXPECT_EQ(answer(R"({"cmd":"arm","system":"1"})"), error("'system' is not a number"));
     EXPECT_EQ(answer(R"({"cmd":"arm","force":1})"), error("'force' is neither true nor false"));
     EXPECT_EQ(answer(R"({"cmd":"arm","system":7})"), error("there is no vehicle 7"));
+}
+
+// The bytes of three seconds of a flight, by such steps.
+std::string flown_by(Nanoseconds step) {
+    const auto path = std::filesystem::path(testing::TempDir()) / fmt::format("steps-{}.tlog", ::getpid());
+    auto sut = *Simulator::create(
+        dialect::default_dialect(),
+        {.speed = max_speed, .utc_at_start = WallTime{1'000'000s}, .orders = {{2500ms, "arm", R"({"cmd":"arm"})"}}},
+        [](config::LogLevel, std::string_view) {});
+    EXPECT_TRUE(sut->open_recording(path));
+    EXPECT_TRUE(sut->add(sim::VehicleOptions{}));
+    sut->pause();
+    sut->turn(MonoTime{});
+    for (Nanoseconds flown{}; flown < 3s; flown += step) EXPECT_TRUE(sut->step(step));
+    EXPECT_EQ(sut->flight_time(), 3s);
+    EXPECT_TRUE(sut->finish({}));
+    std::ifstream file(path, std::ios::binary);
+    std::string bytes(std::istreambuf_iterator<char>(file), {});
+    std::filesystem::remove(path);
+    return bytes;
+}
+
+TEST(Simulator, AFlightDoesNotDependOnItsSteps) {
+    const auto flight = flown_by(3s);
+    EXPECT_GT(flight.size(), 10'000u);
+    for (const Nanoseconds step : {Nanoseconds{1ms}, Nanoseconds{7500us}, Nanoseconds{500ms}})
+        EXPECT_TRUE(flown_by(step) == flight) << step.count();
 }
 
 }  // namespace

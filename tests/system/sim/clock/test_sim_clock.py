@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: MIT
+"""The flight clock: as fast as possible, standing still, by steps; and flights that are recorded without any socket."""
+import json
+import time
+
+import frames
+import pytest
+from pymavlink import mavutil
+
+from disks import SmallDisk
+
+FLIGHT = """
+[sim]
+speed = "max"
+for = "60s"
+start_time = "2026-11-29T12:00:00Z"
+[[vehicle]]
+count = 2
+[[order]]
+at = "40s"
+do = "land"
+[[order]]
+at = "8s"
+do = "takeoff 10"
+[[order]]
+at = "20s"
+do = "goto 47.3980 8.5456"
+system = 2
+"""
+BEGIN = 1795953600  # of the flight, in UTC
+
+
+@pytest.fixture
+def fly(run, tmp_path):
+    """fly("--seed", 2) -> the path of a recording of FLIGHT."""
+    scenario = tmp_path / "flight.toml"
+    scenario.write_text(FLIGHT)
+
+    def record(*options):
+        path = tmp_path / f"flight{len(list(tmp_path.iterdir()))}.tlog"
+        done = run("sim", scenario, "--record", path, *options)
+        assert done.status == 0 and "60.0 s of flight" in done.stderr, done
+        return path
+    return record
+
+
+def test_the_same_seed_gives_the_same_bytes(fly):
+    first = fly().read_bytes()
+    assert fly().read_bytes() == first
+    assert fly("--seed", 2).read_bytes() != first
+
+
+def test_orders_of_the_time_line_are_flown_at_their_times(fly):
+    path = fly()
+    heights, north = {1: {}, 2: {}}, {1: 0, 2: 0}
+    log = mavutil.mavlink_connection(str(path))
+    while message := log.recv_match(type=["GLOBAL_POSITION_INT", "SYSTEM_TIME"]):
+        at = message._timestamp - BEGIN
+        if message.get_type() == "SYSTEM_TIME":
+            assert abs(message.time_unix_usec / 1e6 - message._timestamp) < 0.1
+            continue
+        assert abs(message.time_boot_ms / 1000 - at) < 0.1
+        heights[message.get_srcSystem()][int(at)] = message.relative_alt / 1000
+        north[message.get_srcSystem()] = max(north[message.get_srcSystem()], message.lat / 1e7 - 47.397742)
+    for its in heights.values():
+        assert abs(its[7]) < 0.5 and its[19] == pytest.approx(10, abs=0.5) and its[59] < 5
+    assert north[2] - north[1] > 1.5e-4 > north[1]  # 17 m
+
+
+def test_a_recording_has_each_frame_and_the_times_of_the_flight(fly):
+    records = frames.read_tlog(fly())
+    times = [time_us / 1e6 - BEGIN for time_us, _ in records]
+    assert times == sorted(times) and 0 <= times[0] and 59 < times[-1] <= 60
+    for system in (1, 2):
+        numbers = [frame[4] for _, frame in records if frame[5] == system]
+        assert len(numbers) > 5000 and all((b - a) % 256 == 1 for a, b in zip(numbers, numbers[1:]))
+
+
+def test_a_paused_flight_goes_on_by_exact_steps(sim):
+    simulator = sim()
+    with simulator.station() as station:
+        station.ready()
+        clock = json.loads(simulator.ctl("pause").splitlines()[0])
+        assert clock["kind"] == "clock" and clock["paused"]
+        time.sleep(0.2)
+        mark = station.mark()
+        time.sleep(0.5)
+        assert not station.since(mark, "ATTITUDE"), "it stands still"
+
+        later = json.loads(simulator.ctl("step", "2s").splitlines()[0])
+        assert later["flight_s"] - clock["flight_s"] == pytest.approx(2, abs=1e-9)
+        station.until(lambda: len(station.since(mark, "ATTITUDE")) >= 20, what="the telemetry of two seconds")
+        time.sleep(0.2)
+        times = [message.time_boot_ms for message in station.since(mark, "ATTITUDE")]
+        assert len(times) == 20 and times[-1] - times[0] == 1900, "10 Hz"
+
+        simulator.ctl("resume")
+        station.until(lambda: len(station.since(mark, "ATTITUDE")) > 25, what="telemetry")
+
+
+@pytest.mark.parametrize("arguments, status, text", [
+    (["--speed", "max"], 2, "speed max needs the length of the flight"),
+    (["--record", "flight.bin"], 2, "ends in .tlog"),
+    (["--start-time", "yesterday"], 2, "such as 2026-11-29T12:00:00Z"),
+])
+def test_wrong_use(run, arguments, status, text):
+    done = run("sim", *arguments)
+    assert done.status == status and text in done.stderr, done
+
+
+@pytest.mark.parametrize("order, text", [
+    ('at = "5s"', "an order needs the key do"),
+    ('at = "5s"\ndo = "takeof 5"', "did you mean 'takeoff'?"),
+    ('at = "5s"\ndo = "takeoff"', "write takeoff ALTITUDE"),
+    ('at = "5s"\ndo = "goto 47 north"', "longitude: 'north' is not a number"),
+])
+def test_wrong_orders(run, tmp_path, order, text):
+    (tmp_path / "x.toml").write_text(f"[[vehicle]]\n[[order]]\n{order}\n")
+    done = run("check", tmp_path / "x.toml")
+    assert done.status == 3 and f"{tmp_path / 'x.toml'}:" in done.stderr and text in done.stderr, done
+
+
+def test_a_refused_order_is_reported(run, tmp_path):
+    (tmp_path / "x.toml").write_text('[[order]]\nat = "1s"\ndo = "takeoff 5"\n')
+    done = run("sim", tmp_path / "x.toml", "--speed", "max", "--for", "2s", "--record", tmp_path / "x.tlog")
+    assert done.status == 0 and "order 'takeoff 5' at 1 s: Navigation error" in done.stderr, done
+
+
+def test_a_clock_that_runs_takes_no_step(sim, run):
+    simulator = sim()
+    done = run("ctl", simulator.name, "step", "10ms")
+    assert done.status == 1 and "pause it first" in done.stderr, done
+
+
+def test_a_full_disk_ends_the_flight(run, tmp_path):
+    SmallDisk(tmp_path)
+    done = run("sim", "--speed", "max", "--for", "1h", "--record", tmp_path / "x.tlog")
+    assert done.status == 1 and "No space left" in done.stderr, done
