@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sends the frames of vehicles to live links, or into the simulator's own ring or recording. Private to module simserve; single owner
-// thread.
+// Sends the frames of vehicles to live links, or into the simulator's own ring or recording. Private to module
+// simserve; single owner thread.
 #pragma once
 
 #include <cstddef>

@@ -134,7 +134,7 @@ void Simulator::fly() {
         fleet_->advance(now);
         return run_orders(now);
     }
-    // What has partners sends each step before the next one, so that their queues do not overflow.
+    // Partners get each step before the next one, or the queues would keep only the newest values.
     const MonoTime end = mono_now() + (connections_->has_partners() ? 0ms : 1ms);
     while (!clock_->is_paused() && !has_ended()) {
         fly_to(std::min({fleet_->next_due(), time_line_->next_due(), options_.flight_end}));
@@ -175,7 +175,7 @@ bool Simulator::step(Nanoseconds time) {
     const auto next = [&] { return std::max(std::min(fleet_->next_due(), time_line_->next_due()), flight_time()); };
     for (auto at = next(); at < end; at = next()) {
         fly_to(at);
-        links_->turn(*connections_, MonoTime{});  // or the queues would keep only the newest values
+        links_->turn(*connections_, MonoTime{});
     }
     fly_to(end);
     return true;

@@ -149,8 +149,8 @@ public:
     [[nodiscard]] SimulatorTotals totals() const;
     [[nodiscard]] const SimulatorOptions& options() const noexcept { return options_; }
     [[nodiscard]] sim::FlightTime flight_time() const;
-    // The flight clock stands still or goes on. `step` lets a clock that stands still go on for this time, at most
-    // `max_step`, and returns false if it does not stand still. Frames from partners are answered all the same.
+    // The flight clock stands still or runs again. `step` moves a clock that stands still by this time, at most
+    // `max_step`, and returns false if it runs. Frames from partners are answered all the same.
     static constexpr Nanoseconds max_step = std::chrono::minutes{1};
     void pause();
     void resume();

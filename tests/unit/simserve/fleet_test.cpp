@@ -32,7 +32,7 @@ TEST(FlightClock, RunsAtItsSpeed) {
     EXPECT_EQ(sut.at(start + 3s).real, start + 3s);
 }
 
-TEST(FlightClock, StandsStillAndGoesOn) {
+TEST(FlightClock, StandsStillAndRunsAgain) {
     FlightClock sut(10);
     const MonoTime start{5s};
     sut.start(start);

@@ -76,7 +76,7 @@ def test_a_recording_has_each_frame_and_the_times_of_the_flight(fly):
         assert len(numbers) > 5000 and all((b - a) % 256 == 1 for a, b in zip(numbers, numbers[1:]))
 
 
-def test_a_paused_flight_goes_on_by_exact_steps(sim):
+def test_a_paused_flight_moves_by_exact_steps(sim):
     simulator = sim()
     with simulator.station() as station:
         station.ready()
