@@ -3,8 +3,10 @@
 import json
 import os
 import pathlib
+import pty
 import re
 import signal
+import subprocess
 import urllib.request
 
 import pytest
@@ -66,7 +68,29 @@ def test_a_real_vehicle_takes_the_place_of_the_simulated_one(run, spawn, udp_por
     hops = {hop["name"]: hop for hop in json.loads(done.stdout)["hops"]}
 
     assert done.status == 0, done
-    assert hops["ground station"]["frames_in"] > 100 and all(hop["lost"] == 0 for hop in hops.values())
+    frames = hops["vehicle"]["frames_out"]
+    assert frames > 100 and [hops[name]["frames_in"] for name in HOPS[1:]] == [frames] * 4
+    assert all(hop["lost"] == 0 for hop in hops.values())
+
+
+def test_a_vehicle_that_never_comes_is_waited_for_and_the_reason_is_shown(run):
+    done = run("demo", "--ports", "free", "--source", "serial:///dev/ttyNONE?baud=57600", "--for", "2s")
+    reason = "serial:///dev/ttyNONE: cannot open /dev/ttyNONE: No such file or directory"
+
+    assert done.status == 4 and f"\nvehicle: waiting; {reason}" in done.stdout and "STOPPED" not in done.stdout, done
+    assert not [line for line in done.lines if re.match(r"([6-9]|\d\d) s[:;]", line)], done  # 10 s before
+
+
+def test_frames_of_others_at_the_ground_stations_port_hide_no_loss(spawn):
+    demo = spawn("demo", "--ports", "free", "--for", "7s", "--json", "--break", "relay")
+    port = demo.wait_output(r"UDP port (\d+)")[1]
+    other = spawn("sim", "--name", f"other-{port}", "--to", f"udpout://127.0.0.1:{port}")
+    demo.wait_output(f"process {other.pid}.* also sends to port {port}")
+    hops = {hop["name"]: hop for hop in json.loads(demo.wait().stdout)["hops"]}
+
+    assert hops["relay"]["lost"] == hops["vehicle"]["frames_out"] - hops["ground station"]["frames_in"] > 0
+    assert hops["relay"]["frames_out"] <= hops["listener"]["frames_out"]
+    assert "not counted" in hops["ground station"]["hint"]
 
 
 @pytest.mark.parametrize("broken", ["listener", *(pytest.param(name, marks=pytest.mark.long)
@@ -110,6 +134,27 @@ def test_a_ground_station_connects_and_flies_and_ctrl_c_leaves_nothing(spawn):
     table = table_of(done)
     assert [line.split("  ")[0] for line in table[:6]] == ["hop", *HOPS]
     assert all(line.endswith(" 0") for line in table[1:6]) and table[6].startswith("vehicle to ground station: median")
+
+
+def test_a_table_is_drawn_over_what_the_terminal_echoed(program):
+    """The terminal echoes Ctrl-C as ^C, so the cursor is not at the beginning of its line."""
+    own, terminal = pty.openpty()
+    demo = subprocess.Popen([program, "demo", "--ports", "free", "--for", "2s"], stdout=terminal,
+                            stderr=subprocess.DEVNULL)
+    os.close(terminal)
+    text = b"".join(iter(lambda: read_terminal(own), b"")).decode()
+    os.close(own)
+
+    assert demo.wait() == 0
+    moves = re.findall(r"(.)\x1b\[\d+A", text)
+    assert moves and set(moves) == {"\r"}, text
+
+
+def read_terminal(terminal):
+    try:
+        return os.read(terminal, 4096)
+    except OSError:  # the other end is closed
+        return b""
 
 
 def test_a_second_ctrl_c_ends_the_wait_and_prints_the_counts(spawn):

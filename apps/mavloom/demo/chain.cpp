@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "mavloom/control/control.hpp"
+#include "mavloom/router/report.hpp"
 #include "mavloom/shm/counter_page.hpp"
 #include "mavloom/shm/ring_info.hpp"
 
@@ -95,6 +97,18 @@ bool Chain::is_up(Stage stage) const noexcept {
     return child != nullptr && child->is_running();
 }
 
+// The router's last line about the endpoint: "mavloom: TIME LABEL: cannot open /dev/ttyACM0: ..."
+std::string Chain::why_not_heard() const {
+    const auto label = router::parse_router_endpoint(options_.source)->label();
+    const Child* const router = program(Stage::router);
+    const auto text = router == nullptr ? std::string_view() : router->said();
+    const auto at = text.rfind(label + ": ");
+    const auto line = at == std::string_view::npos ? std::string_view() : text.substr(at, text.find('\n', at) - at);
+    if (line.empty() || line.find(": listening") != std::string_view::npos)
+        return fmt::format("{}: no frame was heard yet", label);
+    return std::string(line);
+}
+
 std::vector<std::string> Chain::words_of(Stage stage) const {
     const Places& p = options_.places;
     const auto mavloom = own_program();
@@ -121,9 +135,12 @@ std::vector<std::string> Chain::words_of(Stage stage) const {
                     p.name,
                     "--json"};
         case Stage::relay: {
-            std::vector<std::string> words{
-                mavloom, "relay", fmt::format("shm://{}?from=oldest", p.name), "--to", udp("udpout", p.station),
-                "--json"};
+            std::vector<std::string> words{mavloom,
+                                           "relay",
+                                           fmt::format("shm://{}?from=oldest", p.name),
+                                           "--to",
+                                           fmt::format("{}?bind=127.0.0.1:{}", udp("udpout", p.station), p.relay),
+                                           "--json"};
             if (options_.copy) words.insert(words.end(), {"--to", udp("udpout", *options_.copy)});
             return words;
         }
@@ -206,8 +223,12 @@ void Chain::stop(Stage stage) {
 }
 
 void Chain::stop_vehicle() {
-    if (!is_up(Stage::vehicle)) return;
-    (void)control::send_request(options_.places.simulator_name(), R"({"cmd":"remove","name":"router"})", patience);
+    if (!is_up(options_.source.empty() ? Stage::vehicle : Stage::router)) return;
+    const Places& p = options_.places;
+    const auto& source = options_.source;
+    const auto name = source.empty() ? "router" : router::parse_router_endpoint(source)->label();
+    const nlohmann::json request{{"cmd", "remove"}, {"name", name}};
+    (void)control::send_request(source.empty() ? p.simulator_name() : p.router_name(), request.dump(), patience);
 }
 
 void Chain::stop_all() {

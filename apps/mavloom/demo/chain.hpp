@@ -42,13 +42,15 @@ public:
     // The program of a stage; null if there never was one (a real vehicle).
     [[nodiscard]] const Child* program(Stage stage) const noexcept;
     [[nodiscard]] bool is_up(Stage stage) const noexcept;
+    // Why a real vehicle was not heard yet, as far as the router knows.
+    [[nodiscard]] std::string why_not_heard() const;
     // Reads what the programs printed, and waits for more until `end` at most. Returns programs that ended by
     // themselves since the last call: "the relay ended with status 1: ...".
     [[nodiscard]] std::vector<std::string> look(MonoTime end);
 
     // Ends one program, and waits for its end.
     void stop(Stage stage);
-    // Ends the vehicle's stream; its counters stay. A real vehicle flies on.
+    // Ends the vehicle's stream; its counters stay. The router closes its link to a real vehicle, which flies on.
     void stop_vehicle();
     // Ends all programs, in the order of the frames. Removes what killed ones left.
     void stop_all();

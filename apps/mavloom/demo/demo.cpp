@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
@@ -11,9 +12,11 @@
 #include "chain.hpp"
 #include "command.hpp"
 #include "latency.hpp"
+#include "mavloom/base/counted.hpp"
 #include "mavloom/base/durations.hpp"
 #include "mavloom/base/thread.hpp"
 #include "mavloom/endpoint/grammar.hpp"
+#include "mavloom/net/port_holder.hpp"
 #include "mavloom/router/report.hpp"
 #include "mavloom/web/server.hpp"
 #include "output.hpp"
@@ -58,8 +61,10 @@ public:
     Watchers(const Watchers&) = delete;
     Watchers& operator=(const Watchers&) = delete;
 
-    // Opens the socket at the end of the chain. Returns its port.
-    [[nodiscard]] SetupResult<std::uint16_t> open_end(std::uint16_t port) {
+    // Opens the socket at the end of the chain. Returns its port. If `relay` is the port that the relay sends from,
+    // frames of other programs are not part of the chain.
+    [[nodiscard]] SetupResult<std::uint16_t> open_end(std::uint16_t port, std::optional<std::uint16_t> relay) {
+        if (relay) relay_ = fmt::format("#127.0.0.1:{}", *relay);
         auto receiver = open(fmt::format("udpin://127.0.0.1:{}", port));
         if (!receiver) return tl::unexpected(std::move(receiver.error()));
         end_ = std::move(*receiver);
@@ -77,6 +82,12 @@ public:
 
     void note_counts() { ring_->note_counts(); }
     [[nodiscard]] std::uint64_t arrived() const noexcept { return arrived_; }
+    // Frames of other programs at the end of the chain, and the address of the newest one's sender.
+    [[nodiscard]] std::uint64_t foreign() const noexcept { return foreign_; }
+    [[nodiscard]] std::string foreigner() {
+        const auto name = end_->name_of(LinkId{foreigner_});
+        return std::string(name.substr(name.rfind('#') + 1));
+    }
     [[nodiscard]] const Latency& latency() const noexcept { return latency_; }
 
 private:
@@ -93,15 +104,22 @@ private:
     void count_arrivals() {
         while (end_->wait())
             while (const auto entry = end_->next()) {
-                latency_.note_second(entry->frame, entry->time);
-                ++arrived_;
+                if (end_->link_name(entry->link).ends_with(relay_)) {
+                    latency_.note_second(entry->frame, entry->time);
+                    ++arrived_;
+                } else {
+                    foreigner_ = entry->link.value;
+                    ++foreign_;
+                }
             }
     }
 
     const Common& common_;
     const dialect::Dialect& dialect_;
     Latency latency_;
-    std::atomic<std::uint64_t> arrived_{0};
+    std::string relay_;  // how the name of the relay's link ends; empty: all frames are the relay's
+    std::atomic<std::uint64_t> arrived_{0}, foreign_{0};
+    std::atomic<decltype(LinkId::value)> foreigner_{};
     std::unique_ptr<feed::Receiver> end_;
     std::thread end_thread_;
     std::unique_ptr<RingServing> ring_;
@@ -118,14 +136,19 @@ public:
           server_(server),
           plays_station_(plays_station),
           router_(places.router_name()),
+          station_port_(places.station),
           tallies_(chain, places, options.source.empty()),
           summary_(::isatty(STDOUT_FILENO) == 1) {}
 
     Exit run() {
-        await_first_frame();
-        const auto began = mono_now();
-        const auto end = options_.duration.empty() ? MonoTime::max()
-                                                   : began + *endpoint::parse_duration(options_.duration);
+        const auto started = mono_now();
+        const auto lasts = options_.duration.empty() ? std::optional<Nanoseconds>()
+                                                     : *endpoint::parse_duration(options_.duration);
+        const bool is_real = !options_.source.empty();
+        await_first_frame(started + (is_real && lasts ? std::min(longest_start, *lasts) : longest_start));
+        // A real vehicle may never come.
+        const auto began = is_real && watchers_.arrived() == 0 ? started : mono_now();
+        const auto end = lasts ? began + *lasts : MonoTime::max();
         auto break_due = options_.broken.empty() ? MonoTime::max() : began + break_after;
         while (!Signals::received() && mono_now() < end) {
             turn(std::min({end, break_due, mono_now() + look_interval}));
@@ -139,9 +162,9 @@ public:
 
 private:
     // The times of --for and --break begin when the chain is complete.
-    void await_first_frame() {
-        const auto limit = mono_now() + longest_start;
-        while (!Signals::received() && watchers_.arrived() == 0 && mono_now() < limit) turn(mono_now() + look_interval);
+    void await_first_frame(MonoTime limit) {
+        while (!Signals::received() && watchers_.arrived() == 0 && mono_now() < limit)
+            turn(std::min(limit, mono_now() + look_interval));
     }
 
     // Looks at everything at `due`.
@@ -160,8 +183,33 @@ private:
         const bool is_there = plays_station_ || (last_answer_ && mono_now() - *last_answer_ < station_silence);
         // Behind a hop that is down, nothing can be known of it.
         if (is_there || tallies_.are_up()) tallies_.set_station(is_there);
+        set_hints(is_there);
         server_.set_hops(hops_of(tallies_));
         if (server_.wants_routes()) server_.set_routes({routes_of("router", router_)});
+    }
+
+    void set_hints(bool has_station) {
+        tallies_.set_hint(0, tallies_.all().front().waits ? chain_.why_not_heard() : "");
+        std::string hint;
+        if (!has_station)
+            hint = last_answer_ ? "silent for more than 5 s" : "none yet: start one, it connects by itself";
+        if (const auto foreign = watchers_.foreign(); foreign != 0) {
+            if (foreigner_.empty()) find_foreigner();
+            hint = fmt::format("not counted: {} that {} sent to port {}", counted(foreign, "frame"), foreigner_,
+                               station_port_);
+        }
+        tallies_.set_hint(hop_count - 1, std::move(hint));
+    }
+
+    void find_foreigner() {
+        const auto text = watchers_.foreigner();
+        const auto address = net::Address::parse(text.substr(0, text.rfind(':')), 0);
+        std::uint16_t port = 0;
+        (void)std::from_chars(text.data() + text.rfind(':') + 1, text.data() + text.size(), port);
+        const auto holder = address ? net::port_holder(net::Transport::udp, address->with_port(port)) : std::string();
+        foreigner_ = holder.empty() ? text : holder;
+        announce(fmt::format("{} also sends to port {}: its frames are not the vehicle's, and are not counted",
+                             foreigner_, station_port_));
     }
 
     [[nodiscard]] State state() const {
@@ -181,7 +229,7 @@ private:
 
     // A second signal ends the wait: then frames that are still on their way are not called lost.
     void drain() {
-        is_settled_ = options_.source.empty() ? await_last_frames() : await_frames_of_real_vehicle();
+        is_settled_ = tallies_.all().front().waits || await_last_frames();
         if (is_settled_) tallies_.settle();
         server_.set_hops(hops_of(tallies_));
     }
@@ -195,19 +243,13 @@ private:
         for (auto arrived = watchers_.arrived(); mono_now() < limit; due = mono_now() + 100ms) {
             if (Signals::repeated()) return false;
             (void)chain_.look(due);
-            look();
+            watchers_.note_counts();
+            tallies_.read(watchers_.arrived());
+            server_.set_hops(hops_of(tallies_));
             if (std::exchange(arrived, watchers_.arrived()) != arrived) changed = mono_now();
             if (tallies_.are_equal() || mono_now() - changed > longest_stillness) break;
         }
         return true;
-    }
-
-    // A real vehicle sends on. Each hop must have what the hop before had sent at an earlier look.
-    bool await_frames_of_real_vehicle() {
-        look();
-        (void)chain_.look(mono_now() + page_age);
-        look();
-        return !Signals::repeated();
     }
 
     Exit report() {
@@ -237,10 +279,12 @@ private:
     web::Server& server_;
     bool plays_station_;
     std::string router_;
+    std::uint16_t station_port_;
     Tallies tallies_;
     Summary summary_;
     bool is_settled_ = false;  // no second signal ended the wait for the last frames
     std::optional<MonoTime> last_answer_;
+    std::string foreigner_;  // another program that sends to the ground station's port
 };
 
 SetupResult<void> check_words(const DemoOptions& options) {
@@ -257,9 +301,10 @@ SetupResult<void> check_words(const DemoOptions& options) {
 
 SetupResult<Places> choose_places(const DemoOptions& options) {
     if (options.ports == "free") return free_places();
-    Places places;
-    for (const auto port : {places.vehicle, places.router, places.listener}) {
-        if (port == places.vehicle && !options.source.empty()) continue;
+    auto places = usual_places();
+    if (!places) return places;
+    for (const auto port : {places->vehicle, places->router, places->listener}) {
+        if (port == places->vehicle && !options.source.empty()) continue;
         if (auto free = check_free(port); !free) {
             free.error().text += "; end that program, or choose other ports with --ports free";
             return tl::unexpected(std::move(free.error()));
@@ -293,7 +338,8 @@ Exit demo(const Common& common, const DemoOptions& options) {
     // A demo of a given duration is its own ground station, if there is none.
     const bool plays_station = !options.duration.empty() && check_free(places->station).has_value();
     Watchers watchers(common, *dialect);
-    const auto end_port = watchers.open_end(plays_station ? places->station : std::uint16_t{0});
+    const auto end_port = plays_station ? watchers.open_end(places->station, places->relay)
+                                        : watchers.open_end(0, std::nullopt);
     if (!end_port) return fail(end_port.error());
     Chain chain({.places = *places,
                  .source = options.source,

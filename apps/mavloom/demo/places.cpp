@@ -35,13 +35,22 @@ SetupResult<Places> free_places() {
     Places places;
     std::random_device random;
     std::vector<net::UdpSocket> open;
-    for (auto* const port : {&places.vehicle, &places.router, &places.listener, &places.station}) {
+    for (auto* const port : {&places.vehicle, &places.router, &places.listener, &places.station, &places.relay}) {
         auto socket = open_somewhere(random);
         if (!socket) return tl::unexpected(std::move(socket.error()));
         *port = socket->local().port();
         open.push_back(std::move(*socket));
     }
     places.name = fmt::format("demo-{}", ::getpid());
+    return places;
+}
+
+SetupResult<Places> usual_places() {
+    Places places;
+    std::random_device random;
+    const auto socket = open_somewhere(random);
+    if (!socket) return tl::unexpected(SetupError(socket.error()));
+    places.relay = socket->local().port();
     return places;
 }
 

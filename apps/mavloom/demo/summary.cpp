@@ -55,10 +55,11 @@ std::string cut(std::string_view text, std::size_t most) {
 bool is_station(const Tally& tally) { return tally.name == station_name; }
 
 std::string remark(const Tally& tally) {
-    if (is_station(tally) && !tally.is_up) return no_station;
-    auto losses = losses_text(tally);
-    if (tally.is_up) return losses;
-    return losses.empty() ? "STOPPED" : "STOPPED; " + losses;
+    const auto losses = losses_text(tally);
+    std::string text = tally.is_up || is_station(tally) ? "" : tally.waits ? "waiting" : "STOPPED";
+    for (const auto& more : {losses, tally.hint})
+        if (!more.empty()) text += (text.empty() ? "" : "; ") + more;
+    return text;
 }
 
 std::uint64_t count_open(const std::vector<observe::Alarm>& alarms) {
@@ -109,8 +110,12 @@ double Summary::rate(std::uint64_t now, std::uint64_t before, MonoTime time) con
 void Summary::print(std::string text) {
     if (on_terminal_) text = cut(text, columns());
     const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n'));
-    if (lines_ != 0) text = fmt::format("\x1b[{}A\x1b[J{}", lines_, text);
-    if (on_terminal_) lines_ = lines;
+    // The terminal may have echoed ^C behind the table.
+    const auto back = lines_ == 0 ? std::string() : fmt::format("\x1b[{}A", lines_);
+    if (on_terminal_) {
+        text = fmt::format("\r{}\x1b[J{}", back, text);
+        lines_ = lines;
+    }
     output_.buffer().append(text.data(), text.data() + text.size());
     (void)output_.flush_what_fits();
 }
@@ -140,8 +145,9 @@ std::string Summary::table(const State& state) const {
 std::string Summary::line(const State& state) const {
     const auto& [tallies, latency, alarms, now] = state;
     const Tally& last = tallies.all().back();
-    std::string text = fmt::format("{:.0f} s: {:.1f} frames/s, {} at the end of the chain", seconds(now - began_),
-                                   rate(last.in, samples_.front().in.back(), now), counted(last.in, "frame"));
+    std::string text = fmt::format("{:.0f} s: ", seconds(now - began_));
+    if (samples_.size() > 1) text += fmt::format("{:.1f} frames/s, ", rate(last.in, samples_.front().in.back(), now));
+    text += fmt::format("{} at the end of the chain", counted(last.in, "frame"));
     std::uint64_t lost = 0;
     for (const Tally& tally : tallies.all()) {
         lost += tally.lost;

@@ -71,11 +71,17 @@ std::uint64_t number_at(const Json& object, std::string_view key) {
 Tallies::Tallies(const Chain& chain, const Places& places, bool is_simulated)
     : chain_(chain), places_(places), is_simulated_(is_simulated) {
     std::ranges::transform(stage_names, tallies_.begin(), [](std::string_view name) { return Tally{.name = name}; });
+    tallies_.front().waits = !is_simulated;
     tallies_.back().name = station_name;
 }
 
 void Tallies::look(std::uint64_t arrived) {
-    sent_before_ = sent();
+    const Sent before = sent();
+    read(arrived);
+    judge(before, false);
+}
+
+void Tallies::read(std::uint64_t arrived) {
     for (std::size_t i = 0; i < stage_names.size(); ++i) tallies_[i].is_up = chain_.is_up(static_cast<Stage>(i));
     look_at_vehicle();
     look_at_router();
@@ -85,10 +91,9 @@ void Tallies::look(std::uint64_t arrived) {
     tallies_.back().in = arrived;
     raise(at(Stage::relay).out, arrived);
     raise(at(Stage::relay).in, arrived);
-    judge(sent_before_, false);
 }
 
-void Tallies::settle() { judge(is_simulated_ ? sent() : sent_before_, true); }
+void Tallies::settle() { judge(sent(), true); }
 
 void Tallies::look_at_vehicle() {
     if (!is_simulated_) return;
@@ -98,11 +103,13 @@ void Tallies::look_at_vehicle() {
     set_loss(at(Stage::vehicle), {"gaps", "numbered, but not sent"}, value_of(*page, "gaps"));
 }
 
-// A real vehicle's frames are those that the router heard.
+// A real vehicle's frames are those that the router heard. Links that are closed count among the others.
 void Tallies::look_at_router() {
     const auto page = shm::read_counters(places_.router_name());
     if (!page) return;
     std::uint64_t heard = 0, lost = 0, sent = 0, answers = 0;
+    heard = value_of(*page, "others_frames_in");
+    lost = value_of(*page, "others_lost");
     each_of_links(*page, [&](std::string_view link, std::string_view label, std::uint64_t value) {
         const bool is_listener = link == stage_names[static_cast<std::size_t>(Stage::listener)];
         if (label == "frames_in") (is_listener ? answers : heard) += value;
@@ -112,12 +119,15 @@ void Tallies::look_at_router() {
         if (std::ranges::find(queue_losses, label) != queue_losses.end())
             set_loss(at(Stage::router), *std::ranges::find(link_losses, label, &LossName::name), value);
     });
+    // The counters of an endpoint leave the page with it (Chain::stop_vehicle).
+    if (!is_simulated_) raise(heard, sent);
     raise(at(Stage::router).in, heard);
     raise(at(Stage::router).out, sent);
     raise(answers_, answers);
     if (is_simulated_) return;
-    at(Stage::vehicle).is_up = heard != 0;
     raise(at(Stage::vehicle).out, heard);
+    at(Stage::vehicle).is_up = at(Stage::vehicle).out != 0;
+    at(Stage::vehicle).waits = !at(Stage::vehicle).is_up;
     set_loss(at(Stage::vehicle), {"lost", "missing in the sequence numbers that the router heard"}, lost);
 }
 
@@ -160,11 +170,11 @@ Tallies::Sent Tallies::sent() const {
 
 void Tallies::judge(const Sent& before, bool is_settled) {
     const Sent now = sent();
+    std::ranges::rotate(missing_, missing_.end() - 1);
     for (std::size_t i = 1; i < hop_count; ++i) {
         const std::uint64_t difference = before[i - 1] - std::min(before[i - 1], now[i]);
-        // One late look is no loss.
-        tallies_[i].lost = is_settled ? difference : std::min(difference, lost_before_[i]);
-        lost_before_[i] = difference;
+        missing_.front()[i] = difference;
+        tallies_[i].lost = is_settled ? difference : missing_for_long(i);
     }
     for (std::size_t i = 0; i < hop_count; ++i) {
         name_losses(tallies_[i]);
@@ -172,6 +182,14 @@ void Tallies::judge(const Sent& before, bool is_settled) {
         raise(tallies_[i].out, now[i]);  // its last counts may be older
         if (i != 0) raise(tallies_[i].in, now[i]);
     }
+}
+
+// The least of the last looks: a page that is late on a busy machine is no loss.
+std::uint64_t Tallies::missing_for_long(std::size_t hop) const {
+    const std::size_t looks = tallies_[hop].is_up ? missing_.size() : 2;
+    std::uint64_t least = missing_.front()[hop];
+    for (std::size_t i = 1; i < looks; ++i) least = std::min(least, missing_[i][hop]);
+    return least;
 }
 
 // The names of what was lost without a name of the program's own.
@@ -218,9 +236,9 @@ std::vector<observe::Hop> hops_of(const Tallies& tallies) {
                         .is_up = tally.is_up,
                         .frames_in = tally.in,
                         .frames_out = tally.out,
-                        .losses = tally.losses});
+                        .losses = tally.losses,
+                        .hint = tally.hint});
     }
-    if (!hops.back().is_up) hops.back().hint = no_station;
     return hops;
 }
 
@@ -234,7 +252,8 @@ Json json_of(const Tallies& tallies) {
                         {"frames_in", tally.in},
                         {"frames_out", tally.out},
                         {"lost", tally.lost},
-                        {"losses", std::move(losses)}});
+                        {"losses", std::move(losses)},
+                        {"hint", tally.hint.empty() ? Json() : Json(tally.hint)}});
     }
     return hops;
 }
