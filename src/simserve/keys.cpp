@@ -127,23 +127,16 @@ SetupResult<void> set_ready_after(ScenarioVehicle& vehicle, Text text) {
 
 constexpr std::size_t max_traffic = 64, max_logs = 32;
 
-SetupResult<void> set_words(ScenarioOrder& order, Text text) {
+SetupResult<void> set_words(ScenarioEvent& event, Text text) {
     if (const auto good = request_of_order(text, {}); !good) return tl::unexpected(good.error());
-    order.words = text;
+    event.words = text;
     return {};
 }
 
-SetupResult<void> set_order_system(ScenarioOrder& order, Text text) {
-    const auto system = parse_system(text);
-    if (!system) return tl::unexpected(system.error());
-    order.system = *system;
-    return {};
-}
-
-constexpr std::array<Key<ScenarioOrder>, 3> all_order_keys{{
-    {"at", "", [](ScenarioOrder& o, Text t) { return put(endpoint::parse_duration(t), o.at); }},
+constexpr std::array<Key<ScenarioEvent>, 3> all_event_keys{{
+    {"at", "", [](ScenarioEvent& e, Text t) { return put(endpoint::parse_duration(t), e.at); }},
     {"do", "", set_words},
-    {"system", "", set_order_system},
+    {"system", "", [](ScenarioEvent& e, Text t) { return put(parse_system(t), e.system); }},
 }};
 
 constexpr std::array<Key<ScenarioVehicle>, 14> all_vehicle_keys{{
@@ -169,7 +162,7 @@ constexpr std::array<Key<ScenarioVehicle>, 14> all_vehicle_keys{{
 
 std::span<const Key<Scenario>> sim_keys() noexcept { return all_sim_keys; }
 std::span<const Key<Scenario>> web_keys() noexcept { return all_web_keys; }
-std::span<const Key<ScenarioOrder>> order_keys() noexcept { return all_order_keys; }
+std::span<const Key<ScenarioEvent>> event_keys() noexcept { return all_event_keys; }
 std::span<const Key<ScenarioVehicle>> vehicle_keys() noexcept { return all_vehicle_keys; }
 
 SetupResult<void> add_rate(std::vector<sim::MessageRate>& rates, std::string_view message, std::string_view hz) {

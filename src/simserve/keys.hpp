@@ -19,10 +19,10 @@ struct Key {
 };
 
 inline constexpr std::string_view sim_section = "sim", web_section = "web", vehicle_section = "vehicle",
-                                  streams_section = "streams", endpoint_section = "endpoint", order_section = "order";
+                                  streams_section = "streams", endpoint_section = "endpoint", event_section = "event";
 
-// An order of the time line, as the file states it.
-struct ScenarioOrder {
+// An event of the time line, as the file states it.
+struct ScenarioEvent {
     Nanoseconds at{};
     std::string words{};
     std::optional<SystemId> system{};
@@ -31,7 +31,7 @@ struct ScenarioOrder {
 [[nodiscard]] std::span<const Key<Scenario>> sim_keys() noexcept;
 [[nodiscard]] std::span<const Key<Scenario>> web_keys() noexcept;
 [[nodiscard]] std::span<const Key<ScenarioVehicle>> vehicle_keys() noexcept;
-[[nodiscard]] std::span<const Key<ScenarioOrder>> order_keys() noexcept;
+[[nodiscard]] std::span<const Key<ScenarioEvent>> event_keys() noexcept;
 
 // Adds a rate of [streams] or of an endpoint's `streams`. A message that vehicles do not stream is an error.
 [[nodiscard]] SetupResult<void> add_rate(std::vector<sim::MessageRate>& rates, std::string_view message,

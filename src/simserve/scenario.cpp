@@ -28,7 +28,7 @@ using config::Variables;
 namespace {
 
 constexpr std::array sections{sim_section, web_section, streams_section};
-constexpr std::array lists{vehicle_section, endpoint_section, order_section};
+constexpr std::array lists{vehicle_section, endpoint_section, event_section};
 // Keys of [[endpoint]] that only scenarios have.
 constexpr std::string_view profile_key = "profile", streams_key = "streams";
 
@@ -57,8 +57,8 @@ public:
             if (table.name == endpoint_section)
                 if (auto done = read(table); !done) return tl::unexpected(std::move(done.error()));
         for (const Table& table : document_.tables)
-            if (table.name == order_section)
-                if (auto done = read_order(table); !done) return tl::unexpected(std::move(done.error()));
+            if (table.name == event_section)
+                if (auto done = read_event(table); !done) return tl::unexpected(std::move(done.error()));
         return std::move(scenario_);
     }
 
@@ -229,26 +229,26 @@ private:
         return document_.error(section.line, what);
     }
 
-    // ---- orders ----
+    // ---- events ----
 
-    SetupResult<void> read_order(const Table& table) {
-        if (auto done = check_keys(table, order_keys()); !done) return done;
-        ScenarioOrder order;
-        config::Section section{std::string(order_section), {}, {}, table.line};
-        for (const auto& key : order_keys()) {
-            auto setting = read_key(order_section, key, &table, order);
+    SetupResult<void> read_event(const Table& table) {
+        if (auto done = check_keys(table, event_keys()); !done) return done;
+        ScenarioEvent event;
+        config::Section section{std::string(event_section), {}, {}, table.line};
+        for (const auto& key : event_keys()) {
+            auto setting = read_key(event_section, key, &table, event);
             if (!setting) return tl::unexpected(std::move(setting.error()));
             section.settings.push_back(std::move(*setting));
         }
         for (const auto key : {"at", "do"})
             if (table.find(key) == nullptr)
-                return document_.error(table.line, fmt::format("an order needs the key {}, as in at = \"5s\", do = "
+                return document_.error(table.line, fmt::format("an event needs the key {}, as in at = \"5s\", do = "
                                                                "\"takeoff 20\"",
                                                                key));
-        auto request = request_of_order(order.words, order.system);
+        auto request = request_of_order(event.words, event.system);
         if (!request) return document_.error(table.line, request.error().text);
         section.label = find(section, "at").value;
-        scenario_.orders.push_back({order.at, std::move(order.words), std::move(*request)});
+        scenario_.orders.push_back({event.at, std::move(event.words), std::move(*request)});
         scenario_.sections.push_back(std::move(section));
         return {};
     }
@@ -325,7 +325,8 @@ sim::Home on_grid(const sim::Home& home, std::size_t index, std::size_t count) {
 
 bool is_scenario(const Document& document) noexcept {
     return std::ranges::any_of(document.tables, [](const Table& table) {
-        return table.name == sim_section || table.name == streams_section || table.name == vehicle_section;
+        return table.name == sim_section || table.name == streams_section || table.name == vehicle_section ||
+               table.name == event_section;
     });
 }
 

@@ -56,7 +56,7 @@ struct Scenario {
 
 using config::Override;
 
-// True if the file is a scenario and not a router's configuration: it has [sim], [streams] or [[vehicle]].
+// True if the file is a scenario and not a router's configuration: it has [sim], [streams], [[vehicle]] or [[event]].
 [[nodiscard]] bool is_scenario(const config::Document& document) noexcept;
 
 // Without [[vehicle]] there is one vehicle of the default kind. An override of a key of [[vehicle]] applies to all of

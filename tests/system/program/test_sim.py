@@ -375,7 +375,7 @@ def test_check_shows_the_values_of_a_scenario_with_their_origin(run, tmp_path):
 
 @pytest.mark.parametrize("text, expected", [
     ("[sin]\n[[vehicle]]\n", "1: there is no section 'sin', did you mean 'sim'?"),
-    ("[sim]\n[router]\n", "2: there is no section 'router'; there are sim, web, streams, vehicle, endpoint"),
+    ("[sim]\n[router]\n", "2: there is no section 'router'; there are sim, web, streams, vehicle, endpoint, event"),
     ("[sim]\nsed = 1\n", "2: [sim] has no key 'sed', did you mean 'seed'?"),
     ("[sim]\nspeed = 1000\n", "2: speed: '1000' is not a number from 0.1 to 100"),
     ("[vehicle]\nkind = 1\n", "1: vehicles are written [[vehicle]], each with its own heading"),

@@ -116,11 +116,11 @@ TEST(Scenario, KnowsItselfFromARoutersConfiguration) {
 
 TEST(Scenario, OrdersAreRequestsOfTheControlSocket) {
     const auto sut = read(R"(
-[[order]]
+[[event]]
 at = "1.5s"
 do = "goto 47.5 -8 30"
 system = 3
-[[order]]
+[[event]]
 at = "1m"
 do = "land"
 )");

@@ -16,13 +16,13 @@ for = "60s"
 start_time = "2026-11-29T12:00:00Z"
 [[vehicle]]
 count = 2
-[[order]]
+[[event]]
 at = "40s"
 do = "land"
-[[order]]
+[[event]]
 at = "8s"
 do = "takeoff 10"
-[[order]]
+[[event]]
 at = "20s"
 do = "goto 47.3980 8.5456"
 system = 2
@@ -109,19 +109,19 @@ def test_wrong_use(run, arguments, status, text):
 
 
 @pytest.mark.parametrize("order, text", [
-    ('at = "5s"', "an order needs the key do"),
+    ('at = "5s"', "an event needs the key do"),
     ('at = "5s"\ndo = "takeof 5"', "did you mean 'takeoff'?"),
     ('at = "5s"\ndo = "takeoff"', "write takeoff ALTITUDE"),
     ('at = "5s"\ndo = "goto 47 north"', "longitude: 'north' is not a number"),
 ])
 def test_wrong_orders(run, tmp_path, order, text):
-    (tmp_path / "x.toml").write_text(f"[[vehicle]]\n[[order]]\n{order}\n")
+    (tmp_path / "x.toml").write_text(f"[[vehicle]]\n[[event]]\n{order}\n")
     done = run("check", tmp_path / "x.toml")
     assert done.status == 3 and f"{tmp_path / 'x.toml'}:" in done.stderr and text in done.stderr, done
 
 
 def test_a_refused_order_is_reported(run, tmp_path):
-    (tmp_path / "x.toml").write_text('[[order]]\nat = "1s"\ndo = "takeoff 5"\n')
+    (tmp_path / "x.toml").write_text('[[event]]\nat = "1s"\ndo = "takeoff 5"\n')
     done = run("sim", tmp_path / "x.toml", "--speed", "max", "--for", "2s", "--record", tmp_path / "x.tlog")
     assert done.status == 0 and "order 'takeoff 5' at 1 s: Navigation error" in done.stderr, done
 
