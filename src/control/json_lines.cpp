@@ -36,7 +36,8 @@ void append_link(std::string& text, const link::Snapshot& snapshot, const link::
                  {"link", link.name},
                  {"endpoint", snapshot.endpoint_label(link.endpoint)},
                  {"up", link.up},
-                 {"rank", name_of(link.rank)}},
+                 {"rank", name_of(link.rank)},
+                 {"faults", link.stages.empty() ? "off" : link.stages}},
                 link.counts);
 }
 

@@ -150,6 +150,11 @@ SetupResult<void> set_origin(EndpointOptions& options, std::string_view text) {
     return put(parse_origins(text), options.origins);
 }
 
+template <std::optional<Faults> EndpointOptions::*member>
+SetupResult<void> set_faults(EndpointOptions& options, std::string_view text) {
+    return put(parse_faults(text), options.*member);
+}
+
 using O = EndpointOptions;
 
 constexpr std::array options_table{
@@ -211,6 +216,11 @@ constexpr std::array options_table{
     Option{"from", takes::ring, "newest", set_from},
     Option{"lossless", takes::ring, "", [](O& o, std::string_view t) { return put(parse_bool(t), o.lossless); }},
     Option{"foreign", takes::ring, "false", set_flag<&O::foreign>},
+    Option{"fault", takes::fault, "", set_faults<&O::fault>},
+    Option{"in_fault", takes::fault, "", set_faults<&O::in_fault>},
+    Option{"out_fault", takes::fault, "", set_faults<&O::out_fault>},
+    Option{"fault_seed", takes::fault, "1",
+           [](O& o, std::string_view t) { return put(parse_fault_seed(t), o.fault_seed); }},
     Option{"speed", takes::recording, "", set_speed},
     Option{"rotate_bytes", takes::recording, "",
            [](O& o, std::string_view t) { return put(parse_rotate_bytes(t), o.rotate_bytes); }},
@@ -342,6 +352,10 @@ SetupResult<void> check_options(const Endpoint& endpoint) {
         return usage(
             "heartbeat= and tap=true exclude each other: a tap gets the frames of other links, and the router sends it "
             "none of its own");
+    if (o.fault_seed && !o.fault && !o.in_fault && !o.out_fault)
+        return usage("fault_seed= has no effect without fault=, in_fault= or out_fault=");
+    for (const Faults* const faults : {&inward_faults(o), &outward_faults(o)})
+        if (auto good = check_faults(*faults, endpoint.row()); !good) return good;
     return {};
 }
 

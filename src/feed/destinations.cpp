@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "mavloom/endpoint/checks.hpp"
+#include "mavloom/fault/faults.hpp"
 
 namespace mavloom::feed {
 
@@ -26,7 +27,7 @@ SetupResult<Destinations> Destinations::open(std::span<const endpoint::Endpoint>
 }
 
 SetupResult<void> Destinations::add_link(const endpoint::Endpoint& endpoint) {
-    auto id = links_->add(endpoint);
+    auto id = fault::add(*links_, endpoint);
     if (!id) return tl::unexpected(std::move(id.error()));
     outputs_.push_back({*id, static_cast<std::size_t>(endpoint.options.queue_bytes)});
     return {};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "mavloom/fault/faults.hpp"
 #include "mavloom/record/tlog_index.hpp"
 #include "mavloom/ring/sources.hpp"
 
@@ -100,7 +101,7 @@ SetupResult<link::EndpointId> Sources::add(const endpoint::Endpoint& endpoint, M
 
 SetupResult<link::EndpointId> Sources::add_live(const endpoint::Endpoint& endpoint, const dialect::Dialect* dialect) {
     if (endpoint.is_ring()) return rings_->add(endpoint, dialect);
-    auto added = links_->add(endpoint, dialect);
+    auto added = fault::add(*links_, endpoint, dialect);
     if (added) live_.push_back(*added);
     return added;
 }

@@ -147,13 +147,15 @@ bool Links::set_stages(EndpointId endpoint, CreateStages create) {
     return may;
 }
 
-bool Links::set_stages(LinkId link, Stages stages) {
+bool Links::set_stages(LinkId link, const CreateStages& create) {
     assert(core_->events.handler() == nullptr && "set_stages must not be called inside a callback");
     Link* const found = core_->links.find(link);
     const bool may = found != nullptr && may_have_stages(core_->endpoints.find(found->endpoint));
-    if (may) core_->set_stages(*found, std::move(stages));
+    if (may) core_->set_stages(*found, create);
     return may;
 }
+
+void Links::report(EndpointId endpoint, std::string text) { core_->events.notice(endpoint, std::move(text)); }
 
 LinkId Links::take_link_id() noexcept { return core_->links.take_id(); }
 EndpointId Links::take_endpoint_id() { return core_->endpoints.take_id(); }
@@ -247,7 +249,7 @@ std::vector<LinkInfo> Links::links(std::span<const LinkId> ids) const {
         const Link* const l = core_->links.find(id);
         if (l == nullptr) continue;
         if (auto* const endpoint = core_->endpoints.find(l->endpoint)) endpoint->settle_sent();
-        infos.push_back({l->id, l->endpoint, l->name, l->up, l->rank, &l->counters});
+        infos.push_back({l->id, l->endpoint, l->name, l->up, l->rank, &l->counters, l->border ? l->border->text() : ""});
     }
     return infos;
 }

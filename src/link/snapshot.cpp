@@ -45,7 +45,8 @@ void add_links(Snapshot& snapshot, const Links& links, std::span<const LinkId> i
                                   link.up,
                                   link.rank,
                                   counts_of(*link.counters),
-                                  {sources.begin(), sources.end()}});
+                                  {sources.begin(), sources.end()},
+                                  std::move(link.stages)});
     }
 }
 

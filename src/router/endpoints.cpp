@@ -7,6 +7,7 @@
 
 #include "mavloom/base/counted.hpp"
 #include "mavloom/dialect/rates.hpp"
+#include "mavloom/fault/faults.hpp"
 
 namespace mavloom::router {
 
@@ -35,7 +36,7 @@ SetupResult<void> RoutedEndpoints::add(const endpoint::Endpoint& endpoint) {
         if (auto good = endpoint::check_not_called(endpoint, existing->endpoint); !good) return good;
     auto policy = policy_of(endpoint);
     if (!policy) return tl::unexpected(std::move(policy.error()).within(endpoint.label()));
-    const auto id = links_.add(endpoint);
+    const auto id = fault::add(links_, endpoint);
     if (!id) return tl::unexpected(id.error());
     policy->endpoint = id->value + 1;  // 0 has a meaning of its own
     keep(endpoints_.emplace_back(), {.id = *id,

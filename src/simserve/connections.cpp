@@ -10,6 +10,7 @@
 #include "mavloom/base/counted.hpp"
 #include "mavloom/dialect/dialect.hpp"
 #include "mavloom/endpoint/checks.hpp"
+#include "mavloom/fault/faults.hpp"
 
 namespace mavloom::simserve {
 
@@ -69,7 +70,7 @@ SetupResult<void> Connections::add(const SimEndpoint& given) {
     const auto endpoint = without_limit(given.endpoint);
     const LinkRates rates = rates_of(given, parts_.options);
     if (endpoint.is_ring()) return add_ring(endpoint, rates);
-    const auto added = parts_.links.add(endpoint);
+    const auto added = fault::add(parts_.links, endpoint);
     if (!added) return tl::unexpected(added.error());
     states_[*added].rates = rates;
     return {};

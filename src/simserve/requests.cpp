@@ -11,6 +11,7 @@
 #include "control/json_request.hpp"
 #include "mavloom/base/shown.hpp"
 #include "mavloom/base/suggest.hpp"
+#include "mavloom/fault/faults.hpp"
 #include "mavloom/simserve/report.hpp"
 
 namespace mavloom::simserve {
@@ -177,6 +178,16 @@ Report step(Simulator& simulator, const Json& request) {
     return report_clock(simulator);
 }
 
+// Replaces the faults of an endpoint or link.
+Report fault_links(Simulator& simulator, const Json& request) {
+    const auto name = text_at(request, "name");
+    const auto now = fault::change(simulator.links(), name,
+                                   {text_at(request, "in"), text_at(request, "out"), text_at(request, "seed")});
+    if (!now) return failed(now.error().text);
+    simulator.notify(config::LogLevel::info, fmt::format("{}: faults set by ctl: {}", name, *now));
+    return control::succeeded();
+}
+
 using Command = control::Command<Simulator>;
 
 constexpr std::array commands{
@@ -195,6 +206,7 @@ constexpr std::array commands{
     Command{"stats", [](Simulator& s, const Json&) { return report_stats(s); }},
     Command{"add", [](Simulator& s, const Json& r) { return add(s, text_at(r, "url")); }},
     Command{"remove", [](Simulator& s, const Json& r) { return remove(s, text_at(r, "name")); }},
+    Command{"fault", fault_links},
 };
 
 }  // namespace

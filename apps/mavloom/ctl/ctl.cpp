@@ -25,8 +25,9 @@ namespace {
 struct CtlOptions {
     std::string name, action;
     std::vector<std::string> arguments;
-    std::string system;  // of the vehicle; empty: all
-    std::string limit;   // of `wait`
+    std::string system;         // of the vehicle; empty: all
+    std::string limit;          // of `wait`
+    std::string in, out, seed;  // of `fault`
     bool force = false;
     bool json = false;
 };
@@ -48,6 +49,7 @@ const std::vector<Action>& actions() {
         {"stats"},
         {"add", {"url"}, 1, "add takes the URL of an endpoint"},
         {"remove", {"name"}, 1, "remove takes the name of an endpoint or link"},
+        {"fault", {"name", "faults"}, 1, "fault takes the name of an endpoint or link, and the faults or off"},
         {"streams"},
         {"state", {}, 0, {}, true},
         {"arm", {}, 0, {}, true},
@@ -97,7 +99,7 @@ SetupResult<void> add_arguments(const CtlOptions& options, const Action& action,
                                                                in_quotes(options.arguments[action.arguments.size()])));
     for (std::size_t i = 0; i < options.arguments.size(); ++i) {
         const auto key = action.arguments[i];
-        if (key == "url" || key == "name" || key == "mode") {
+        if (key == "url" || key == "name" || key == "mode" || key == "faults") {
             request[std::string(key)] = options.arguments[i];
             continue;
         }
@@ -105,6 +107,26 @@ SetupResult<void> add_arguments(const CtlOptions& options, const Action& action,
         if (!number) return tl::unexpected(number.error());
         request[std::string(key)] = *number;
     }
+    return {};
+}
+
+// The faults of both directions, or of each.
+SetupResult<void> add_faults(const CtlOptions& options, const Action& action, Json& request) {
+    const bool has_options = !options.in.empty() || !options.out.empty() || !options.seed.empty();
+    if (action.name != "fault") {
+        if (!has_options) return {};
+        return setup_error(SetupCode::usage,
+                           fmt::format("--in, --out and --seed are for fault, not for {}", action.name));
+    }
+    const std::string both = request.value("faults", "");
+    request.erase("faults");
+    if (both.empty() == (options.in.empty() && options.out.empty()))
+        return setup_error(SetupCode::usage,
+                           "fault takes faults for both directions, as in fault NAME loss:0.1, or "
+                           "those of each: fault NAME --in loss:0.1 --out delay:80ms");
+    request["in"] = both.empty() ? options.in : both;
+    request["out"] = both.empty() ? options.out : both;
+    request["seed"] = options.seed;
     return {};
 }
 
@@ -150,6 +172,7 @@ SetupResult<Json> request_of(const CtlOptions& options) {
     Json request{{"cmd", options.action}};
     if (!action.mode.empty()) request = {{"cmd", "mode"}, {"mode", action.mode}};
     if (auto added = add_arguments(options, action, request); !added) return tl::unexpected(std::move(added.error()));
+    if (auto added = add_faults(options, action, request); !added) return tl::unexpected(std::move(added.error()));
     if (options.force && action.name != "arm" && action.name != "disarm")
         return setup_error(SetupCode::usage, fmt::format("--force is for arm and disarm, not for {}", action.name));
     if (options.force) request["force"] = true;
@@ -205,13 +228,17 @@ Run declare_ctl(Arguments command, const Common&) {
         "name", "NAME", options->name,
         "the --name of a router or simulator; by default router, or sim. Without it, lists those that run");
     command.add_option("action", "ACTION", options->action,
-                       "links, stats, add URL, remove NAME; of a router: routes; of a simulator: streams, state, arm, "
-                       "disarm, takeoff ALTITUDE, land, rtl, goto LATITUDE LONGITUDE [ALTITUDE], mode NAME, param NAME "
+                       "links, stats, add URL, remove NAME, fault NAME FAULTS (or off); of a router: routes; of a "
+                       "simulator: streams, state, arm, disarm, takeoff ALTITUDE, land, rtl, goto LATITUDE LONGITUDE "
+                       "[ALTITUDE], mode NAME, param NAME "
                        "[VALUE], wait STATE (ready, armed, disarmed, landed, alt METRES), pause, resume, step TIME");
     command.add_option("argument", "ARGUMENT", options->arguments, "what the action takes");
     command.add_option("--system", "N", options->system, "the vehicle with this system id (default: all)");
     command.add_option("--for", "TIME", options->limit, "`wait` ends after this time, with status 1")
         .default_str("60s");
+    command.add_option("--in", "FAULTS", options->in, "`fault`: of what arrives (docs/guide/faults.md)");
+    command.add_option("--out", "FAULTS", options->out, "`fault`: of what is sent");
+    command.add_option("--seed", "N", options->seed, "`fault`: the seed (default: that of the endpoint)");
     command.add_flag("--force", options->force, "arm or disarm even if the vehicle's own checks fail");
     command.add_flag("--json", options->json, "print JSON on a terminal, too");
     command.footer(
@@ -220,6 +247,8 @@ Run declare_ctl(Arguments command, const Common&) {
         "  mavloom ctl router links\n"
         "  mavloom ctl router add 'udpout://192.168.1.20:14550?name=tablet'\n"
         "  mavloom ctl router remove tablet\n"
+        "  mavloom ctl router fault tablet loss:0.05/8,delay:80ms~20ms\n"
+        "  mavloom ctl router fault tablet off\n"
         "  mavloom ctl sim wait ready\n"
         "  mavloom ctl sim takeoff 10\n"
         "  mavloom ctl sim wait alt 10 --for 30s\n"

@@ -148,7 +148,10 @@ std::string rest_of(const Json& object, const Layout& layout) {
     std::vector<std::string_view> shown{"forwarded"};
     for (const auto& column : layout.columns) shown.push_back(column.key);
     if (layout.kind == "gone") std::erase(shown, "forwarded");
-    return nonzero(object, shown);
+    auto rest = nonzero(object, shown);
+    const std::string faults = object.value("faults", "off");
+    if (faults == "off") return rest;
+    return fmt::format("faults: {}{}{}", faults, rest.empty() ? "" : "; ", rest);
 }
 
 void add(TextTable& table, const Json& object, const Layout& layout) {

@@ -16,6 +16,7 @@
 #include "mavloom/base/result.hpp"
 #include "mavloom/dialect/filter.hpp"
 #include "mavloom/dialect/terms.hpp"
+#include "mavloom/endpoint/fault.hpp"
 #include "mavloom/endpoint/schemes.hpp"
 #include "mavloom/route/choices.hpp"
 
@@ -78,6 +79,9 @@ struct EndpointOptions {
     // wsin: web pages that may connect, as in "https://app.example.com"; "*": all.
     std::vector<std::string> origins;
     bool foreign = false;  // shm source: also rings of users who are not trusted
+    // Faults on purpose: see `inward_faults()`.
+    std::optional<Faults> fault, in_fault, out_fault;
+    std::optional<std::uint64_t> fault_seed;  // default: 1
     friend bool operator==(const EndpointOptions&, const EndpointOptions&) = default;
 };
 

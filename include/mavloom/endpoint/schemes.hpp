@@ -42,8 +42,9 @@ inline constexpr OptionKinds device = 1 << 9;      // baud=, flow=
 inline constexpr OptionKinds ring = 1 << 10;       // from=, lossless=, foreign=
 inline constexpr OptionKinds recording = 1 << 11;  // speed=, rotate_bytes=, rotate_every=
 inline constexpr OptionKinds origin = 1 << 12;     // origin=
+inline constexpr OptionKinds fault = 1 << 13;      // fault=, in_fault=, out_fault=, fault_seed=
 
-inline constexpr OptionKinds stream = any | link | address | low_latency;
+inline constexpr OptionKinds stream = any | link | address | low_latency | fault;
 inline constexpr OptionKinds datagram = stream | datagrams;
 }  // namespace takes
 
@@ -151,7 +152,7 @@ inline constexpr std::array<SchemeRow, 11> scheme_rows{{
      .carrier = Carrier::other,
      .side = Side::calls,
      .cast = Cast::one,
-     .options = takes::any | takes::link | takes::low_latency | takes::device,
+     .options = takes::any | takes::link | takes::low_latency | takes::device | takes::fault,
      .counterpart = "serial",
      .if_silent = "is it the right port, is the baud rate right ({baud}), are the wires crossed (TX to RX), and does "
                   "the far side send MAVLink on that port?",

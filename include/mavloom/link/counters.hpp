@@ -32,6 +32,9 @@ struct LinkCounters {
     // Pieces (stage.hpp) that were dropped because queue_bytes were held already, or that were held when the link
     // ended: frames outward; datagrams, messages or reads inward.
     Counter held_dropped;
+    // Pieces that met a fault (docs/guide/faults.md), in both directions together.
+    Counter fault_blackout, fault_lost, fault_duplicated, fault_corrupted, fault_cut, fault_delayed, fault_stalled;
+    Counter fault_reordered, fault_queue;
     void add(const LinkCounters& other) noexcept;
     // Applies a sequence tracker's update to `lost`, `late`, `duplicate`, `resync` and `untracked`.
     void add(const wire::SequenceTracker::Update& update) noexcept;
@@ -40,7 +43,7 @@ struct LinkCounters {
 struct LinkCounter : CounterRow<LinkCounters> {
     bool on_page;  // also on the counter page of a ring (docs/formats/ring.md)
 };
-inline constexpr std::array<LinkCounter, 21> link_counters{{
+inline constexpr std::array<LinkCounter, 30> link_counters{{
     {{"frames_in", "good frames that arrived", &LinkCounters::frames_in}, true},
     {{"bytes_in", "bytes of the good frames that arrived", &LinkCounters::bytes_in}, true},
     {{"frames_out", "frames that were sent", &LinkCounters::frames_out}, true},
@@ -70,6 +73,17 @@ inline constexpr std::array<LinkCounter, 21> link_counters{{
     {{"held_dropped", "pieces that link faults had to hold, dropped for lack of room or at the end of the link",
       &LinkCounters::held_dropped},
      false},
+    {{"fault_blackout", "pieces that faults dropped in black-outs", &LinkCounters::fault_blackout}, true},
+    {{"fault_lost", "pieces that faults dropped at random", &LinkCounters::fault_lost}, true},
+    {{"fault_duplicated", "pieces that faults passed twice", &LinkCounters::fault_duplicated}, true},
+    {{"fault_corrupted", "pieces of which faults inverted a bit", &LinkCounters::fault_corrupted}, true},
+    {{"fault_cut", "frames whose end faults cut off", &LinkCounters::fault_cut}, true},
+    {{"fault_delayed", "pieces that faults delayed", &LinkCounters::fault_delayed}, true},
+    {{"fault_stalled", "pieces that faults held until a stall ended", &LinkCounters::fault_stalled}, true},
+    {{"fault_reordered", "pieces that faults held back, so that later ones overtake them",
+      &LinkCounters::fault_reordered},
+     true},
+    {{"fault_queue", "pieces that faults dropped because the queue of rate: was full", &LinkCounters::fault_queue}, true},
 }};
 static_assert(sizeof(LinkCounters) == link_counters.size() * sizeof(Counter), "each counter needs a row");
 

@@ -100,6 +100,7 @@ struct LinkInfo {
     bool up = false;
     Rank rank = Rank::own;  // docs/guide/routing.md, "Trust"
     const LinkCounters* counters = nullptr;
+    std::string stages{};  // what the stages at its border do; empty: there are none
 };
 
 struct EndpointInfo {
@@ -202,11 +203,14 @@ public:
     // Must not be called inside a callback; on_link_down is not called for this link.
     bool close(LinkId link);
     // Put stages (stage.hpp) at the border of an endpoint's links, present and future ones, or of one link, in place of
-    // earlier ones. An empty function, or empty chains, remove them. Pieces that the earlier stages hold pass on at the
-    // next turn. Return false if the endpoint or link is gone, or belongs to a ring: an inlet, or shm://.
+    // earlier ones. For an endpoint, an empty function removes them; for a link, empty chains do. Pieces that the
+    // earlier stages hold pass on at the next turn. Return false if the endpoint or link is gone, or belongs to a ring:
+    // an inlet, or shm://.
     // Must not be called inside a callback.
     bool set_stages(EndpointId endpoint, CreateStages create);
-    bool set_stages(LinkId link, Stages stages);
+    bool set_stages(LinkId link, const CreateStages& create);
+    // Passes an event for the log to the handler's on_notice, in the next turn.
+    void report(EndpointId endpoint, std::string text);
     // True if a key file of `sign=` or `verify=` now holds a different key from the one in use. False while one of the
     // files cannot be read.
     [[nodiscard]] bool has_other_keys(EndpointId endpoint) const;

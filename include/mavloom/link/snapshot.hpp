@@ -48,6 +48,7 @@ struct Snapshot {
         Rank rank;
         std::vector<NamedCount> counts;
         std::vector<wire::SequenceStats> sources;
+        std::string stages{};  // LinkInfo::stages
     };
 
     std::vector<OfEndpoint> endpoints{};  // sorted by id, as `links` are

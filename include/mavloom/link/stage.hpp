@@ -16,12 +16,15 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "mavloom/base/bytes.hpp"
 #include "mavloom/base/clock.hpp"
 #include "mavloom/base/ids.hpp"
+#include "mavloom/link/counters.hpp"
+#include "mavloom/wire/message_table.hpp"
 
 namespace mavloom::link {
 
@@ -36,7 +39,7 @@ struct Piece {
 };
 
 // Takes pieces from a stage, for the next one or for the parser or queue. A stage may call it any number of times.
-// Empty pieces are ignored. A piece may not be longer than the one that the stage got.
+// Empty pieces are ignored. Outward, a piece may not be longer than the one that the stage got.
 class Next {
 public:
     virtual ~Next() = default;
@@ -53,18 +56,23 @@ public:
     virtual ~Stage() = default;
     // `now`: the time of the turn; for a piece that an earlier stage held, the time at which it was due.
     virtual void take(const Piece& piece, MonoTime now, Next& next) noexcept = 0;
+    // The connection has ended, or other stages replace this one. Passes on what the stage itself has kept.
+    virtual void finish(WallTime /*time*/, Next& /*next*/) noexcept {}
 };
 
 // The chains of one link, each in the order in which a piece passes through its stages.
 struct Stages {
     std::vector<std::unique_ptr<Stage>> in, out;
+    std::string text{};  // what they do, for LinkInfo::stages
 };
 
-// The link that gets stages.
+// The link that gets stages. The link outlives them.
 struct StageSite {
     LinkId link;
-    std::string_view name;
+    std::string_view name;   // valid during the call
     bool is_stream = false;  // tcp and serial
+    LinkCounters& counters;
+    const wire::MessageTable& table;
 };
 using CreateStages = std::function<Stages(const StageSite&)>;
 

@@ -35,7 +35,27 @@ private:
 
 Border::~Border() { core_.tickers.forget(*this); }
 
+// Holds what stages have kept to themselves when others replace them.
+class Border::Rest final : public Next {
+public:
+    explicit Rest(Chain& chain) noexcept : chain_(chain) {}
+    void pass(const Piece& piece) noexcept override {
+        if (!piece.bytes.empty()) chain_.keep(MonoTime::max(), {piece, {piece.bytes.begin(), piece.bytes.end()}, 0});
+    }
+    void pass_at(const Piece& piece, MonoTime) noexcept override { pass(piece); }
+
+private:
+    Chain& chain_;
+};
+
+void Border::Chain::keep(MonoTime when, Held piece) {
+    bytes += piece.bytes.size();
+    held.emplace_hint(held.end(), when, std::move(piece));
+}
+
 void Border::Chain::exchange(std::vector<std::unique_ptr<Stage>> others) {
+    Rest rest(*this);
+    for (const auto& stage : stages) stage->finish(wall_now(), rest);
     stages = std::move(others);
     std::multimap<MonoTime, Held> due;
     for (auto& [when, held_piece] : held) {
@@ -48,6 +68,7 @@ void Border::Chain::exchange(std::vector<std::unique_ptr<Stage>> others) {
 void Border::replace(Stages stages) {
     at(Way::in).exchange(std::move(stages.in));
     at(Way::out).exchange(std::move(stages.out));
+    text_ = std::move(stages.text);
     core_.tickers.keep(*this);
 }
 
@@ -71,11 +92,10 @@ void Border::leave(Way way, const Piece& piece) {
 void Border::hold(Way way, std::size_t place, const Piece& piece, MonoTime now, MonoTime when) {
     if (piece.bytes.empty()) return;
     Chain& chain = at(way);
-    if (piece.bytes.size() > link_.max_held_bytes - chain.bytes) return link_.counters.held_dropped.add();
+    if (chain.bytes + piece.bytes.size() > link_.max_held_bytes) return link_.counters.held_dropped.add();
     Held held{piece, {piece.bytes.begin(), piece.bytes.end()}, place};
     if (way == Way::in) held.piece.time += when - now;
-    chain.bytes += held.bytes.size();
-    chain.held.emplace_hint(chain.held.end(), when, std::move(held));
+    chain.keep(when, std::move(held));
     core_.tickers.keep(*this);
 }
 
@@ -90,7 +110,14 @@ void Border::release_until(Way way, MonoTime end) {
     }
 }
 
-void Border::release(Way way) { release_until(way, MonoTime::max()); }
+void Border::release(Way way) {
+    release_until(way, MonoTime::max());
+    for (std::size_t place = 0; place < at(way).stages.size(); ++place) {
+        Step next(*this, way, place + 1, core_.now());
+        at(way).stages[place]->finish(wall_now(), next);
+    }
+    release_until(way, MonoTime::max());
+}
 
 void Border::drop(Way way) noexcept {
     Chain& chain = at(way);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "link/core/tickers.hpp"
@@ -29,6 +30,8 @@ public:
 
     // Exchanges the stages. Pieces that the earlier ones hold pass the border before all others, without more stages.
     void replace(Stages stages);
+    // Stages::text.
+    [[nodiscard]] const std::string& text() const noexcept { return text_; }
     // Passes the piece through the stages. Inward only during a turn.
     void take(Way way, const Piece& piece);
     // The stream or connection ends in this turn: passes on what is held.
@@ -53,7 +56,9 @@ private:
         std::size_t bytes = 0;  // in `held`
 
         void exchange(std::vector<std::unique_ptr<Stage>> others);
+        void keep(MonoTime when, Held piece);
     };
+    class Rest;
 
     [[nodiscard]] Chain& at(Way way) noexcept { return chains_[static_cast<std::size_t>(way)]; }
     [[nodiscard]] const Chain& at(Way way) const noexcept { return chains_[static_cast<std::size_t>(way)]; }
@@ -67,6 +72,7 @@ private:
     Core& core_;
     Link& link_;
     std::array<Chain, 2> chains_;  // by Way
+    std::string text_;
 };
 
 }  // namespace mavloom::link::detail

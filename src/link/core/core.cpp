@@ -70,10 +70,14 @@ void Core::add_link(Link& link, Rank rank) {
 
 void Core::create_stages(Link& link) {
     const auto found = stages.find(link.endpoint);
-    if (found != stages.end()) set_stages(link, found->second({link.id, link.name, link.is_stream()}));
+    if (found != stages.end()) set_stages(link, found->second);
 }
 
-void Core::set_stages(Link& link, Stages made) {
+void Core::set_stages(Link& link, const CreateStages& create) {
+    put_stages(link, create({link.id, link.name, link.is_stream(), link.counters, link.dialect->table}));
+}
+
+void Core::put_stages(Link& link, Stages made) {
     const bool is_empty = made.in.empty() && made.out.empty();
     if (!link.border && is_empty) return;
     if (!link.border) link.border = std::make_unique<Border>(*this, link);
@@ -86,7 +90,7 @@ void Core::set_stages(EndpointId endpoint, CreateStages create) {
     else stages.insert_or_assign(endpoint, std::move(create));
     links.each([&](Link& link) {
         if (link.endpoint != endpoint) return;
-        if (removes) set_stages(link, {});
+        if (removes) put_stages(link, {});
         else create_stages(link);
     });
 }

@@ -91,7 +91,7 @@ public:
     void remove_link(Link& link, std::string_view why);
     // Gives an endpoint's present and future links these stages; an empty function removes them. Not during a turn.
     void set_stages(EndpointId endpoint, CreateStages create);
-    void set_stages(Link& link, Stages stages);
+    void set_stages(Link& link, const CreateStages& create);
     // For a border that has nothing left to do. Destroys it at the end of the turn.
     void remove_border(Link& link) {
         tickers.forget(*link.border);
@@ -133,6 +133,7 @@ public:
 
 private:
     void create_stages(Link& link);
+    void put_stages(Link& link, Stages made);
     [[nodiscard]] static wire::FrameView signed_for(Link& link, const wire::FrameView& frame);
     static bool queue(Link& link, net::BlockQueue& lane, OutgoingFrame& outgoing, const wire::FrameView& frame,
                       MonoTime now);

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "control/json_request.hpp"
+#include "mavloom/fault/faults.hpp"
 #include "mavloom/router/report.hpp"
 
 namespace mavloom::router {
@@ -26,6 +27,17 @@ Report remove(Router& router, const std::string& name) {
     return control::succeeded();
 }
 
+// Replaces the faults of an endpoint or link.
+Report set_faults(Router& router, const control::Json& request) {
+    const auto name = control::text_at(request, "name");
+    const auto now = fault::change(
+        router.links(), name,
+        {control::text_at(request, "in"), control::text_at(request, "out"), control::text_at(request, "seed")});
+    if (!now) return control::failed(now.error().text);
+    router.notify(config::LogLevel::info, fmt::format("{}: faults set by ctl: {}", name, *now));
+    return control::succeeded();
+}
+
 using Command = control::Command<Router>;
 
 constexpr std::array commands{
@@ -35,6 +47,7 @@ constexpr std::array commands{
     Command{"add", [](Router& r, const control::Json& request) { return add(r, control::text_at(request, "url")); }},
     Command{"remove",
             [](Router& r, const control::Json& request) { return remove(r, control::text_at(request, "name")); }},
+    Command{"fault", set_faults},
 };
 
 }  // namespace

@@ -74,6 +74,13 @@ class Simulator:
         assert done.returncode == 0, done
         return done.stdout
 
+    def fault(self, faults, rng, link=None):
+        """Faults of all links of the port, or of one, from now on: "loss:0.2", "off"."""
+        self.ctl("fault", link or f"udpin://127.0.0.1:{self.port}", faults, "--seed", rng.getrandbits(63))
+
+    def newest_link(self):
+        return json.loads(self.ctl("links").splitlines()[-1])["link"]
+
     def state(self):
         return json.loads(self.ctl("state").splitlines()[0])
 

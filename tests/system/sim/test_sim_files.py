@@ -11,7 +11,6 @@ import mavsdks
 import mavutils
 from flights import results_in_time
 from ftp import FtpClient
-from impairer import Profile, UdpImpairer
 from simulators import metadata_file
 from stations import crc32
 
@@ -49,9 +48,9 @@ def test_b57_a_burst_download_is_complete(sim, rng, loss):
     with simulator.station() as station:
         path, size = largest_file(station)
         expected = FtpClient(station).crc(path)
-    with UdpImpairer(("127.0.0.1", simulator.port), rng, Profile(loss=loss)) as bad:
-        with mavutils.connected(bad.port) as connection:
-            content = mavutils.download(connection, path)
+    simulator.fault(f"loss:{loss}", rng)
+    with mavutils.connected(simulator.port) as connection:
+        content = mavutils.download(connection, path)
 
     assert len(content) == size > 10_000
     assert crc32(content) == expected

@@ -8,7 +8,6 @@ import pytest
 
 import mavsdks
 from flights import arm, flight_time, ready_vehicle, speed_of
-from impairer import Profile, UdpImpairer
 from simulators import HOLD, HOME, MISSION, item, metres_between, offset, place, plain
 from stations import NAN, crc32, mavlink
 
@@ -65,10 +64,10 @@ def test_b43_a_long_plan_comes_back_as_it_was_sent(sim):
 def test_b44_transfers_survive_loss(sim, rng):
     simulator = sim()
     plan = long_plan(16)
-    with UdpImpairer(("127.0.0.1", simulator.port), rng, Profile(loss=0.2)) as bad:
-        station = simulator.station(port=bad.port)
-        assert station.upload(plan).type == ACCEPTED
-        back = station.download()
+    simulator.fault("loss:0.2", rng)
+    station = simulator.station()
+    assert station.upload(plan).type == ACCEPTED
+    back = station.download()
 
     assert int_frames(back) == int_frames(plan)
 

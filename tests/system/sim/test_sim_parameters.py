@@ -9,7 +9,6 @@ import pytest
 import mavsdks
 import qgroundcontrol
 from ftp import FtpClient
-from impairer import Profile, UdpImpairer
 from simulators import metadata_file
 from stations import bits_of, float_of, mavlink
 
@@ -116,10 +115,11 @@ def test_b40_a_name_of_16_characters_has_no_terminator(px4):
 
 def test_b41_lost_values_can_be_requested(sim, rng):
     simulator = sim()
-    with UdpImpairer(("127.0.0.1", simulator.port), rng, Profile(loss=0.1)) as bad:
-        station = simulator.station(port=bad.port)
+    simulator.fault("loss:0.1", rng)
+    with simulator.station() as station:
         names = set(station.parameters())
         count = station.latest("PARAM_VALUE").param_count
+    simulator.fault("off", rng)
     with simulator.station((254, 191)) as good:
         mark = good.mark()
         good.send_to_vehicle("param_request_list")

@@ -17,7 +17,6 @@ import frames
 import harness
 from flights import arm, ready_vehicle, take_off
 from ftp import FtpClient
-from impairer import Profile, UdpImpairer
 from simulators import ALTITUDE, HOLD, Simulator, item, plain
 from stations import Station, mavlink
 
@@ -105,15 +104,14 @@ def test_b84_the_last_of_two_modes_wins(sim):
 
 def test_b85_a_network_that_reorders_and_repeats(sim, rng):
     simulator = sim()
-    bad = Profile(delay=0.005, jitter=0.01, duplicate=0.2, reorder=0.2, reorder_by=0.02)
-    with UdpImpairer(("127.0.0.1", simulator.port), rng, bad) as network:
-        station = simulator.station(port=network.port)
-        plan = [item(seq, 16, 10 * seq) for seq in range(20)]
-        assert station.upload(plan).type == ACCEPTED
-        assert [plain(one)[2:] for one in station.download()] == [plain(one)[2:] for one in plan]
-        assert len(station.parameters()) > 100
-        assert station.command(176, 1, 2) == ACCEPTED
-        station.mode_is(ALTITUDE)
+    simulator.fault("duplicate:0.2,delay:10ms~5ms,reorder:0.2/20ms", rng)
+    station = simulator.station()
+    plan = [item(seq, 16, 10 * seq) for seq in range(20)]
+    assert station.upload(plan).type == ACCEPTED
+    assert [plain(one)[2:] for one in station.download()] == [plain(one)[2:] for one in plan]
+    assert len(station.parameters()) > 100
+    assert station.command(176, 1, 2) == ACCEPTED
+    station.mode_is(ALTITUDE)
 
 
 SERVICES = {
@@ -376,12 +374,12 @@ def test_two_clients_upload_at_once(sim):
 @pytest.mark.parametrize("loss", [0.1, 0.2])
 def test_services_on_a_lossy_link(sim, rng, loss):
     simulator = sim()
-    with UdpImpairer(("127.0.0.1", simulator.port), rng, Profile(delay=0.005, loss=loss)) as network:
-        station = simulator.station(port=network.port)
-        assert len(station.parameters()) > 100
-        plan = [item(seq, 16, 10 * seq) for seq in range(10)]
-        assert station.upload(plan).type == ACCEPTED
-        assert len(station.download()) == 10
+    simulator.fault(f"loss:{loss},delay:5ms", rng)
+    station = simulator.station()
+    assert len(station.parameters()) > 100
+    plan = [item(seq, 16, 10 * seq) for seq in range(10)]
+    assert station.upload(plan).type == ACCEPTED
+    assert len(station.download()) == 10
 
 
 def test_limits_answer_with_the_errors_of_the_protocols(sim):

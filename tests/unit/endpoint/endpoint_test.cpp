@@ -457,7 +457,7 @@ TEST(EndpointOptionNames, OfARingAreThoseOfTheGuideWithTheirDefaults) {
 }
 
 TEST(EndpointOptionNames, HoldWhatTheDesignLists) {
-    EXPECT_THAT(endpoint_option_names(), testing::SizeIs(39));
+    EXPECT_THAT(endpoint_option_names(), testing::SizeIs(43));
     EXPECT_THAT(endpoint_option_names(),
                 testing::IsSupersetOf({"name", "mtu", "max_rate", "private", "rotate_every", "bind", "low_latency"}));
 }

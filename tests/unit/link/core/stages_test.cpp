@@ -171,7 +171,9 @@ protected:
         node.recorder.frames.clear();
         id = node.recorder.ups.at(0).first;
     }
-    void put(Stages stages) { ASSERT_TRUE(node.links->set_stages(id, std::move(stages))); }
+    void put(Stages stages) {
+        ASSERT_TRUE(node.links->set_stages(id, [&](const StageSite&) { return std::move(stages); }));
+    }
     void send(const Bytes& frame) { EXPECT_EQ(node.links->send(id, view(frame)), 1u); }
     [[nodiscard]] bool far_gets(const Bytes& bytes) {
         return until([&] { return (got = std::move(got) + far.read()).size() >= bytes.size(); }, node) && got == bytes;
@@ -405,9 +407,9 @@ TEST(Stages, RingsAndWhatIsGoneHaveNone) {
     const auto ring = node.add("shm://stages_test");
     const CreateStages create = [](const StageSite&) { return inward({drop}); };
     EXPECT_FALSE(node.links->set_stages(ring, create));
-    EXPECT_FALSE(node.links->set_stages(node.links->links().at(0).id, inward({drop})));
+    EXPECT_FALSE(node.links->set_stages(node.links->links().at(0).id, create));
     EXPECT_FALSE(node.links->set_stages(EndpointId{99}, create));
-    EXPECT_FALSE(node.links->set_stages(LinkId{99}, inward({drop})));
+    EXPECT_FALSE(node.links->set_stages(LinkId{99}, create));
 }
 
 TEST(Stages, BroadcastAndMulticastHaveThem) {

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Gives links the faults that a user asks for: loss, copies, damage, delay, reordering, a narrow line, black-outs
+// (docs/guide/faults.md). Each link gets stages (mavloom/link/stage.hpp) for each of its directions.
+//
+// The same seed and the same pieces at the same times meet the same faults. Every fault of every direction of every
+// link draws from a random stream of its own. The stream depends on the seed, on the name of the endpoint, and on how
+// many links the endpoint had before this one.
+//
+// Call these functions on the thread that owns the Links object, outside callbacks. The stages count each fault in
+// link::LinkCounters. A link without faults costs nothing.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "mavloom/base/result.hpp"
+#include "mavloom/endpoint/endpoint.hpp"
+#include "mavloom/link/links.hpp"
+
+namespace mavloom::fault {
+
+// Links::add, and the faults that the endpoint's options ask for. If there are any, on_notice reports them.
+[[nodiscard]] SetupResult<link::EndpointId> add(link::Links& links, const endpoint::Endpoint& endpoint,
+                                                const dialect::Dialect* dialect = nullptr);
+
+// The faults of both directions.
+struct Plan {
+    endpoint::Faults in, out;
+    std::uint64_t seed = 1;
+
+    [[nodiscard]] bool any() const noexcept { return in.any() || out.any(); }
+    // "in loss:0.1, seed 1"; "in and out sik, seed 7"; "off".
+    [[nodiscard]] std::string text() const;
+};
+[[nodiscard]] Plan plan_of(const endpoint::EndpointOptions& options);
+
+// A request of `mavloom ctl NAME fault`: the specifications of both directions (empty: no faults), and the seed (empty:
+// the one of the endpoint).
+struct Change {
+    std::string in, out, seed;
+};
+// Replaces the faults of an endpoint's links, present and future ones, or of one link, by its name. Returns what it has
+// now. Errors are `usage`: a wrong specification, no such link, or a ring.
+[[nodiscard]] SetupResult<std::string> change(link::Links& links, std::string_view name, const Change& change);
+
+// The stages for link number `ordinal` of the endpoint `label`.
+[[nodiscard]] link::Stages stages_of(const Plan& plan, std::string_view label, std::uint64_t ordinal,
+                                     const link::StageSite& site);
+
+}  // namespace mavloom::fault

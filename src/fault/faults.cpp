@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/fault/faults.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "fault/stages.hpp"
+#include "mavloom/endpoint/grammar.hpp"
+
+namespace mavloom::fault {
+
+using namespace detail;
+using link::LinkCounters;
+
+namespace {
+
+using Chain = std::vector<std::unique_ptr<link::Stage>>;
+
+// Adds the stages of one direction, in the order of docs/guide/faults.md. Each gets its own random stream.
+class ChainMaker {
+public:
+    ChainMaker(Seed seed, LinkCounters& counters) : seed_(seed), counters_(counters) {}
+
+    [[nodiscard]] Chain make(const endpoint::Faults& f) && {
+        if (f.blackout.length.count() != 0) add<BlackOut>(f.blackout, counters_.fault_blackout);
+        if (f.loss > 0 && f.burst > 0) add<LoseInBursts>(f.loss, f.burst, stream("loss"), counters_.fault_lost);
+        else if (f.loss > 0) add<Lose>(f.loss, stream("loss"), counters_.fault_lost);
+        if (f.duplicate > 0) add<Duplicate>(f.duplicate, stream("duplicate"), counters_.fault_duplicated);
+        if (f.corrupt > 0) add<Corrupt>(f.corrupt, stream("corrupt"), counters_.fault_corrupted);
+        if (f.cut > 0) add<CutShort>(f.cut, stream("cut"), counters_.fault_cut);
+        if (f.delay.count() != 0) add<Delay>(f.delay, f.jitter, stream("delay"), counters_.fault_delayed);
+        if (f.stall.length.count() != 0) add<Stall>(f.stall, counters_.fault_stalled);
+        if (f.reorder > 0) add<Reorder>(f.reorder, f.reorder_by, stream("reorder"), counters_.fault_reordered);
+        if (f.rate_bytes_s != 0) add<Narrow>(f.rate_bytes_s, f.rate_queue_bytes, counters_.fault_queue);
+        return std::move(chain_);
+    }
+
+private:
+    template <class Stage, class... Args>
+    void add(Args&&... args) {
+        chain_.push_back(std::make_unique<Stage>(std::forward<Args>(args)...));
+    }
+    [[nodiscard]] Seed stream(std::string_view name) const { return seed_.with(name); }
+
+    Seed seed_;
+    LinkCounters& counters_;
+    Chain chain_;
+};
+
+link::CreateStages create_for(Plan plan, std::string label) {
+    return [plan = std::move(plan), label = std::move(label), ordinal = std::uint64_t{0}](
+               const link::StageSite& site) mutable { return stages_of(plan, label, ordinal++, site); };
+}
+
+std::string shown_text(const endpoint::Faults& faults) { return faults.any() ? faults.text : "off"; }
+
+// "" is no faults.
+SetupResult<endpoint::Faults> parse(std::string_view text, const endpoint::Endpoint& endpoint) {
+    if (text.empty()) return endpoint::Faults{};
+    auto faults = endpoint::parse_faults(text);
+    if (!faults) return faults;
+    if (auto good = endpoint::check_faults(*faults, endpoint.row()); !good) return tl::unexpected(good.error());
+    return faults;
+}
+
+SetupResult<Plan> parse(const Change& change, const endpoint::Endpoint& endpoint) {
+    Plan plan;
+    plan.seed = endpoint.options.fault_seed.value_or(1);
+    if (!change.seed.empty())
+        if (auto done = endpoint::put(endpoint::parse_fault_seed(change.seed), plan.seed); !done)
+            return tl::unexpected(std::move(done.error()).within("seed"));
+    auto in = parse(change.in, endpoint), out = parse(change.out, endpoint);
+    if (!in) return tl::unexpected(std::move(in.error()));
+    if (!out) return tl::unexpected(std::move(out.error()));
+    plan.in = std::move(*in);
+    plan.out = std::move(*out);
+    return plan;
+}
+
+// How many links of the same endpoint came before this one and are still there.
+std::uint64_t ordinal_of(const link::LinkInfo& link, const std::vector<link::LinkInfo>& all) {
+    return static_cast<std::uint64_t>(std::ranges::count_if(
+        all, [&](const link::LinkInfo& other) { return other.endpoint == link.endpoint && other.id < link.id; }));
+}
+
+// An endpoint, or one of its links.
+struct Place {
+    link::EndpointInfo endpoint;
+    std::optional<LinkId> link;
+    std::uint64_t ordinal = 0;
+};
+
+std::optional<Place> find(const link::Links& links, std::string_view name) {
+    const auto endpoints = links.endpoints();
+    for (const auto& endpoint : endpoints)
+        if (endpoint.label() == name || endpoint.endpoint.label() == name) return Place{endpoint, {}, 0};
+    const auto all = links.links();
+    const auto link = std::ranges::find(all, name, &link::LinkInfo::name);
+    if (link == all.end()) return std::nullopt;
+    const auto endpoint = std::ranges::find(endpoints, link->endpoint, &link::EndpointInfo::id);
+    if (endpoint == endpoints.end()) return std::nullopt;
+    return Place{*endpoint, link->id, ordinal_of(*link, all)};
+}
+
+bool put_stages(link::Links& links, const Place& place, const Plan& plan) {
+    const std::string label = place.endpoint.endpoint.label();
+    if (!place.link) return links.set_stages(place.endpoint.id, plan.any() ? create_for(plan, label) : nullptr);
+    return links.set_stages(*place.link,
+                            [&](const link::StageSite& site) { return stages_of(plan, label, place.ordinal, site); });
+}
+
+}  // namespace
+
+std::string Plan::text() const {
+    if (!any()) return "off";
+    const std::string seed_text = fmt::format(", seed {}", seed);
+    if (in == out) return fmt::format("in and out {}{}", in.text, seed_text);
+    return fmt::format("in {}, out {}{}", shown_text(in), shown_text(out), seed_text);
+}
+
+Plan plan_of(const endpoint::EndpointOptions& options) {
+    return {endpoint::inward_faults(options), endpoint::outward_faults(options), options.fault_seed.value_or(1)};
+}
+
+link::Stages stages_of(const Plan& plan, std::string_view label, std::uint64_t ordinal, const link::StageSite& site) {
+    if (!plan.any()) return {};
+    const Seed seed = Seed(plan.seed).with(label).with(ordinal);
+    link::Stages stages;
+    stages.in = ChainMaker(seed.with("in"), site.counters).make(plan.in);
+    stages.out = ChainMaker(seed.with("out"), site.counters).make(plan.out);
+    if (site.is_stream && !stages.in.empty())
+        stages.in.insert(stages.in.begin(), std::make_unique<CutIntoFrames>(site.table));
+    stages.text = plan.text();
+    return stages;
+}
+
+SetupResult<link::EndpointId> add(link::Links& links, const endpoint::Endpoint& endpoint,
+                                  const dialect::Dialect* dialect) {
+    auto id = links.add(endpoint, dialect);
+    const Plan plan = plan_of(endpoint.options);
+    if (!id || !plan.any()) return id;
+    links.set_stages(*id, create_for(plan, endpoint.label()));
+    links.report(*id, fmt::format("{}: faults on purpose: {}", endpoint.label(), plan.text()));
+    return id;
+}
+
+SetupResult<std::string> change(link::Links& links, std::string_view name, const Change& change) {
+    const auto place = find(links, name);
+    if (!place)
+        return setup_error(SetupCode::usage, fmt::format("there is no endpoint or link {}", endpoint::in_quotes(name)));
+    auto plan = parse(change, place->endpoint.endpoint);
+    if (!plan) return tl::unexpected(std::move(plan.error()));
+    if (!put_stages(links, *place, *plan))
+        return setup_error(SetupCode::usage, fmt::format("{} is a ring, which has no faults", name));
+    return plan->text();
+}
+
+}  // namespace mavloom::fault

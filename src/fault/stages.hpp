@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+// The stages of faults, one for each kind. Private to module fault; Links' thread runs them. None allocates once it has
+// seen its largest piece.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "fault/draws.hpp"
+#include "mavloom/base/counter.hpp"
+#include "mavloom/endpoint/fault.hpp"
+#include "mavloom/link/stage.hpp"
+#include "mavloom/wire/stream_parser.hpp"
+
+namespace mavloom::fault::detail {
+
+using link::Next;
+using link::Piece;
+
+// Finds the current episode. Time counts from the first call.
+class EpisodeClock {
+public:
+    explicit EpisodeClock(const endpoint::Episodes& episodes) noexcept : episodes_(episodes) {}
+    // The end of the episode that `now` is in; empty: it is in none.
+    [[nodiscard]] std::optional<MonoTime> end_of_current(MonoTime now) noexcept;
+
+private:
+    endpoint::Episodes episodes_;
+    std::optional<MonoTime> begin_;
+};
+
+// Cuts what a stream reads into frames, and what lies between them. The rest of a read waits for the next one.
+class CutIntoFrames final : public link::Stage {
+public:
+    explicit CutIntoFrames(const wire::MessageTable& table) : parser_(table) {}
+    void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
+    void finish(WallTime time, Next& next) noexcept override;
+
+private:
+    template <class Decide>
+    void pass_decided(Piece piece, Next& next, Decide&& decide);
+
+    wire::StreamParser parser_;
+    std::vector<std::uint8_t> bytes_;  // that the parser has not decided yet
+};
+
+class BlackOut final : public link::Stage {
+public:
+    BlackOut(const endpoint::Episodes& episodes, Counter& counter) noexcept : clock_(episodes), counter_(counter) {}
+    void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
+
+private:
+    EpisodeClock clock_;
+    Counter& counter_;
+};
+
+class Lose final : public link::Stage {
+public:
+    Lose(double share, Seed seed, Counter& counter) noexcept : share_(share), draws_(seed), counter_(counter) {}
+    void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
+
+private:
+    double share_;
+    Draws draws_;
+    Counter& counter_;
+};
+
+// Gilbert-Elliott: in the bad state all is lost, in the good one nothing. After each piece, the state changes with the
+// chance `into_` or `out_of_`.
+class LoseInBursts final : public link::Stage {
+public:
+    LoseInBursts(double share, double burst, Seed seed, Counter& counter) noexcept
+        : into_(share / ((1 - share) * burst)), out_of_(1 / burst), draws_(seed), counter_(counter) {}
+    void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
+
+private:
+    double into_, out_of_;
+    bool is_bad_ = false;
+    Draws draws_;
+    Counter& counter_;
+};
+
+class Duplicate final : public link::Stage {
+public:
+    Duplicate(double share, Seed seed, Counter& counter) noexcept : share_(share), draws_(seed), counter_(counter) {}
+    void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
+
+private:
+    double share_;
+    Draws draws_;
+    Counter& counter_;
+};
+
+// Inverts one bit.
+class Corrupt final : public link::Stage {
+public:
+    Corrupt(double share, Seed seed, Counter& counter) noexcept : share_(share), draws_(seed), counter_(counter) {}
+    void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
+
+private:
+    double share_;
+    Draws draws_;
+    Counter& counter_;
+    std::vector<std::uint8_t> changed_;
+};
+
+// Passes only the beginning of a piece, at least one byte.
+class CutShort final : public link::Stage {
+public:
+    CutShort(double share, Seed seed, Counter& counter) noexcept : share_(share), draws_(seed), counter_(counter) {}
+    void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
+
+private:
+    double share_;
+    Draws draws_;
+    Counter& counter_;
+};
+
+// No piece overtakes another.
+class Delay final : public link::Stage {
+public:
+    Delay(Nanoseconds mean, Nanoseconds jitter, Seed seed, Counter& counter) noexcept
+        : mean_(mean), jitter_(jitter), draws_(seed), counter_(counter) {}
+    void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
+
+private:
+    Nanoseconds mean_, jitter_;
+    MonoTime last_{};
+    Draws draws_;
+    Counter& counter_;
+};
+
+class Stall final : public link::Stage {
+public:
+    Stall(const endpoint::Episodes& episodes, Counter& counter) noexcept : clock_(episodes), counter_(counter) {}
+    void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
+
+private:
+    EpisodeClock clock_;
+    Counter& counter_;
+};
+
+class Reorder final : public link::Stage {
+public:
+    Reorder(double share, Nanoseconds by, Seed seed, Counter& counter) noexcept
+        : share_(share), by_(by), draws_(seed), counter_(counter) {}
+    void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
+
+private:
+    double share_;
+    Nanoseconds by_;
+    Draws draws_;
+    Counter& counter_;
+};
+
+// A line that carries `bytes_s`. A piece that does not fit into the queue, which includes the piece on the line, is
+// dropped. An empty line takes any piece.
+class Narrow final : public link::Stage {
+public:
+    Narrow(std::uint64_t bytes_s, std::uint64_t queue_bytes, Counter& dropped) noexcept
+        : ns_a_byte_(1e9 / static_cast<double>(bytes_s)),
+          queue_bytes_(static_cast<double>(queue_bytes)),
+          dropped_(dropped) {}
+    void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
+
+private:
+    [[nodiscard]] Nanoseconds time_for(double bytes) const noexcept;
+
+    double ns_a_byte_, queue_bytes_;
+    MonoTime free_at_{};  // when all that was taken has left
+    Counter& dropped_;
+};
+
+}  // namespace mavloom::fault::detail
