@@ -67,6 +67,9 @@ SetupResult<void> Simulator::check(const endpoint::Endpoint& endpoint) {
 
 SetupResult<void> Connections::add(const SimEndpoint& given) {
     if (auto good = Simulator::check(given.endpoint); !good) return good;
+    if (parts_.options.speed == max_speed && line_speed(given.endpoint) != 0)
+        return setup_error(SetupCode::usage,
+                           fmt::format("{}: a serial line is too slow for --speed max", given.endpoint.label()));
     const auto endpoint = without_limit(given.endpoint);
     const LinkRates rates = rates_of(given, parts_.options);
     if (endpoint.is_ring()) return add_ring(endpoint, rates);

@@ -100,6 +100,7 @@ def test_a_paused_flight_moves_by_exact_steps(sim):
 
 @pytest.mark.parametrize("arguments, status, text", [
     (["--speed", "max"], 2, "speed max needs the length of the flight"),
+    (["--speed", "max", "--for", "1s", "--to", "serial:///dev/null"], 2, "too slow for --speed max"),
     (["--record", "flight.bin"], 2, "ends in .tlog"),
     (["--start-time", "yesterday"], 2, "such as 2026-11-29T12:00:00Z"),
 ])
