@@ -23,19 +23,23 @@ using Chain = std::vector<std::unique_ptr<link::Stage>>;
 // Adds the stages of one direction, in the order of docs/guide/faults.md. Each gets its own random stream.
 class ChainMaker {
 public:
-    ChainMaker(Seed seed, LinkCounters& counters) : seed_(seed), counters_(counters) {}
+    ChainMaker(Seed seed, const link::StageSite& site, std::string_view way)
+        : seed_(seed.with(way)), counters_(site.counters), log_(log_site(site.name, way)) {}
 
     [[nodiscard]] Chain make(const endpoint::Faults& f) && {
-        if (f.blackout.length.count() != 0) add<BlackOut>(f.blackout, counters_.fault_blackout);
-        if (f.loss > 0 && f.burst > 0) add<LoseInBursts>(f.loss, f.burst, stream("loss"), counters_.fault_lost);
-        else if (f.loss > 0) add<Lose>(f.loss, stream("loss"), counters_.fault_lost);
-        if (f.duplicate > 0) add<Duplicate>(f.duplicate, stream("duplicate"), counters_.fault_duplicated);
-        if (f.corrupt > 0) add<Corrupt>(f.corrupt, stream("corrupt"), counters_.fault_corrupted);
-        if (f.cut > 0) add<CutShort>(f.cut, stream("cut"), counters_.fault_cut);
-        if (f.delay.count() != 0) add<Delay>(f.delay, f.jitter, stream("delay"), counters_.fault_delayed);
-        if (f.stall.length.count() != 0) add<Stall>(f.stall, counters_.fault_stalled);
-        if (f.reorder > 0) add<Reorder>(f.reorder, f.reorder_by, stream("reorder"), counters_.fault_reordered);
-        if (f.rate_bytes_s != 0) add<Narrow>(f.rate_bytes_s, f.rate_queue_bytes, counters_.fault_queue);
+        if (f.blackout.length.count() != 0) add<BlackOut>(f.blackout, tally("blackout", counters_.fault_blackout));
+        if (f.loss > 0 && f.burst > 0)
+            add<LoseInBursts>(f.loss, f.burst, stream("loss"), tally("loss", counters_.fault_lost));
+        else if (f.loss > 0) add<Lose>(f.loss, stream("loss"), tally("loss", counters_.fault_lost));
+        add_share<Duplicate>("duplicate", f.duplicate, counters_.fault_duplicated);
+        add_share<Corrupt>("corrupt", f.corrupt, counters_.fault_corrupted);
+        add_share<CutShort>("cut", f.cut, counters_.fault_cut);
+        if (f.delay.count() != 0)
+            add<Delay>(f.delay, f.jitter, stream("delay"), tally("delay", counters_.fault_delayed));
+        if (f.stall.length.count() != 0) add<Stall>(f.stall, tally("stall", counters_.fault_stalled));
+        if (f.reorder > 0)
+            add<Reorder>(f.reorder, f.reorder_by, stream("reorder"), tally("reorder", counters_.fault_reordered));
+        if (f.rate_bytes_s != 0) add<Narrow>(f.rate_bytes_s, f.rate_queue_bytes, tally("rate", counters_.fault_queue));
         return std::move(chain_);
     }
 
@@ -44,10 +48,16 @@ private:
     void add(Args&&... args) {
         chain_.push_back(std::make_unique<Stage>(std::forward<Args>(args)...));
     }
+    template <class Stage>
+    void add_share(std::string_view name, double share, Counter& counter) {
+        if (share > 0) add<Stage>(share, stream(name), tally(name, counter));
+    }
     [[nodiscard]] Seed stream(std::string_view name) const { return seed_.with(name); }
+    [[nodiscard]] Tally tally(std::string_view name, Counter& counter) const { return {counter, name, log_}; }
 
     Seed seed_;
     LinkCounters& counters_;
+    std::shared_ptr<const LogSite> log_;
     Chain chain_;
 };
 
@@ -130,8 +140,8 @@ link::Stages stages_of(const Plan& plan, std::string_view label, std::uint64_t o
     if (!plan.any()) return {};
     const Seed seed = Seed(plan.seed).with(label).with(ordinal);
     link::Stages stages;
-    stages.in = ChainMaker(seed.with("in"), site.counters).make(plan.in);
-    stages.out = ChainMaker(seed.with("out"), site.counters).make(plan.out);
+    stages.in = ChainMaker(seed, site, "in").make(plan.in);
+    stages.out = ChainMaker(seed, site, "out").make(plan.out);
     if (site.is_stream && !stages.in.empty())
         stages.in.insert(stages.in.begin(), std::make_unique<CutIntoFrames>(site.table));
     stages.text = plan.text();

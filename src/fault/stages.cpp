@@ -48,17 +48,17 @@ void CutIntoFrames::finish(WallTime time, Next& next) noexcept {
 }
 
 void BlackOut::take(const Piece& piece, MonoTime now, Next& next) noexcept {
-    if (clock_.end_of_current(now)) counter_.add();
+    if (clock_.end_of_current(now)) tally_.note(piece);
     else next.pass(piece);
 }
 
 void Lose::take(const Piece& piece, MonoTime, Next& next) noexcept {
-    if (draws_.chance(share_)) counter_.add();
+    if (draws_.chance(share_)) tally_.note(piece);
     else next.pass(piece);
 }
 
 void LoseInBursts::take(const Piece& piece, MonoTime, Next& next) noexcept {
-    if (is_bad_) counter_.add();
+    if (is_bad_) tally_.note(piece);
     else next.pass(piece);
     if (draws_.chance(is_bad_ ? out_of_ : into_)) is_bad_ = !is_bad_;
 }
@@ -66,7 +66,7 @@ void LoseInBursts::take(const Piece& piece, MonoTime, Next& next) noexcept {
 void Duplicate::take(const Piece& piece, MonoTime, Next& next) noexcept {
     next.pass(piece);
     if (!draws_.chance(share_)) return;
-    counter_.add();
+    tally_.note(piece);
     next.pass(piece);
 }
 
@@ -75,7 +75,7 @@ void Corrupt::take(const Piece& piece, MonoTime, Next& next) noexcept {
     changed_.assign(piece.bytes.begin(), piece.bytes.end());
     const std::uint64_t bit = draws_.below(8 * changed_.size());
     changed_[bit / 8] ^= static_cast<std::uint8_t>(1u << (bit % 8));
-    counter_.add();
+    tally_.note(piece);
     Piece other = piece;
     other.bytes = changed_;
     next.pass(other);
@@ -85,27 +85,27 @@ void CutShort::take(const Piece& piece, MonoTime, Next& next) noexcept {
     if (!draws_.chance(share_) || piece.bytes.size() < 2) return next.pass(piece);
     Piece shorter = piece;
     shorter.bytes = piece.bytes.first(1 + draws_.below(piece.bytes.size() - 1));
-    counter_.add();
+    tally_.note(piece);
     next.pass(shorter);
 }
 
 void Delay::take(const Piece& piece, MonoTime now, Next& next) noexcept {
     const double jitter = static_cast<double>(jitter_.count()) * (2 * draws_.share() - 1);
     last_ = std::max(last_, now + mean_ + Nanoseconds(std::llround(jitter)));
-    counter_.add();
+    tally_.note(piece);
     next.pass_at(piece, last_);
 }
 
 void Stall::take(const Piece& piece, MonoTime now, Next& next) noexcept {
     const auto end = clock_.end_of_current(now);
     if (!end) return next.pass(piece);
-    counter_.add();
+    tally_.note(piece);
     next.pass_at(piece, *end);
 }
 
 void Reorder::take(const Piece& piece, MonoTime now, Next& next) noexcept {
     if (!draws_.chance(share_)) return next.pass(piece);
-    counter_.add();
+    tally_.note(piece);
     next.pass_at(piece, now + by_);
 }
 
@@ -115,7 +115,7 @@ void Narrow::take(const Piece& piece, MonoTime now, Next& next) noexcept {
     const MonoTime begin = std::max(free_at_, now);
     const auto size = static_cast<double>(piece.bytes.size());
     const auto waiting = std::chrono::duration<double, std::nano>(begin - now).count() / ns_a_byte_;
-    if (begin > now && waiting + size > queue_bytes_) return dropped_.add();
+    if (begin > now && waiting + size > queue_bytes_) return dropped_.note(piece);
     free_at_ = begin + time_for(size);
     next.pass_at(piece, free_at_);
 }

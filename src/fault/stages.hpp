@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "fault/draws.hpp"
+#include "fault/log.hpp"
 #include "mavloom/base/counter.hpp"
 #include "mavloom/endpoint/fault.hpp"
 #include "mavloom/link/stage.hpp"
@@ -48,121 +50,121 @@ private:
 
 class BlackOut final : public link::Stage {
 public:
-    BlackOut(const endpoint::Episodes& episodes, Counter& counter) noexcept : clock_(episodes), counter_(counter) {}
+    BlackOut(const endpoint::Episodes& episodes, Tally tally) noexcept : clock_(episodes), tally_(std::move(tally)) {}
     void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
 
 private:
     EpisodeClock clock_;
-    Counter& counter_;
+    Tally tally_;
 };
 
 class Lose final : public link::Stage {
 public:
-    Lose(double share, Seed seed, Counter& counter) noexcept : share_(share), draws_(seed), counter_(counter) {}
+    Lose(double share, Seed seed, Tally tally) noexcept : share_(share), draws_(seed), tally_(std::move(tally)) {}
     void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
 
 private:
     double share_;
     Draws draws_;
-    Counter& counter_;
+    Tally tally_;
 };
 
 // Gilbert-Elliott: in the bad state all is lost, in the good one nothing. After each piece, the state changes with the
 // chance `into_` or `out_of_`.
 class LoseInBursts final : public link::Stage {
 public:
-    LoseInBursts(double share, double burst, Seed seed, Counter& counter) noexcept
-        : into_(share / ((1 - share) * burst)), out_of_(1 / burst), draws_(seed), counter_(counter) {}
+    LoseInBursts(double share, double burst, Seed seed, Tally tally) noexcept
+        : into_(share / ((1 - share) * burst)), out_of_(1 / burst), draws_(seed), tally_(std::move(tally)) {}
     void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
 
 private:
     double into_, out_of_;
     bool is_bad_ = false;
     Draws draws_;
-    Counter& counter_;
+    Tally tally_;
 };
 
 class Duplicate final : public link::Stage {
 public:
-    Duplicate(double share, Seed seed, Counter& counter) noexcept : share_(share), draws_(seed), counter_(counter) {}
+    Duplicate(double share, Seed seed, Tally tally) noexcept : share_(share), draws_(seed), tally_(std::move(tally)) {}
     void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
 
 private:
     double share_;
     Draws draws_;
-    Counter& counter_;
+    Tally tally_;
 };
 
 // Inverts one bit.
 class Corrupt final : public link::Stage {
 public:
-    Corrupt(double share, Seed seed, Counter& counter) noexcept : share_(share), draws_(seed), counter_(counter) {}
+    Corrupt(double share, Seed seed, Tally tally) noexcept : share_(share), draws_(seed), tally_(std::move(tally)) {}
     void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
 
 private:
     double share_;
     Draws draws_;
-    Counter& counter_;
+    Tally tally_;
     std::vector<std::uint8_t> changed_;
 };
 
 // Passes only the beginning of a piece, at least one byte.
 class CutShort final : public link::Stage {
 public:
-    CutShort(double share, Seed seed, Counter& counter) noexcept : share_(share), draws_(seed), counter_(counter) {}
+    CutShort(double share, Seed seed, Tally tally) noexcept : share_(share), draws_(seed), tally_(std::move(tally)) {}
     void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
 
 private:
     double share_;
     Draws draws_;
-    Counter& counter_;
+    Tally tally_;
 };
 
 // No piece overtakes another.
 class Delay final : public link::Stage {
 public:
-    Delay(Nanoseconds mean, Nanoseconds jitter, Seed seed, Counter& counter) noexcept
-        : mean_(mean), jitter_(jitter), draws_(seed), counter_(counter) {}
+    Delay(Nanoseconds mean, Nanoseconds jitter, Seed seed, Tally tally) noexcept
+        : mean_(mean), jitter_(jitter), draws_(seed), tally_(std::move(tally)) {}
     void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
 
 private:
     Nanoseconds mean_, jitter_;
     MonoTime last_{};
     Draws draws_;
-    Counter& counter_;
+    Tally tally_;
 };
 
 class Stall final : public link::Stage {
 public:
-    Stall(const endpoint::Episodes& episodes, Counter& counter) noexcept : clock_(episodes), counter_(counter) {}
+    Stall(const endpoint::Episodes& episodes, Tally tally) noexcept : clock_(episodes), tally_(std::move(tally)) {}
     void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
 
 private:
     EpisodeClock clock_;
-    Counter& counter_;
+    Tally tally_;
 };
 
 class Reorder final : public link::Stage {
 public:
-    Reorder(double share, Nanoseconds by, Seed seed, Counter& counter) noexcept
-        : share_(share), by_(by), draws_(seed), counter_(counter) {}
+    Reorder(double share, Nanoseconds by, Seed seed, Tally tally) noexcept
+        : share_(share), by_(by), draws_(seed), tally_(std::move(tally)) {}
     void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
 
 private:
     double share_;
     Nanoseconds by_;
     Draws draws_;
-    Counter& counter_;
+    Tally tally_;
 };
 
 // A line that carries `bytes_s`. A piece that does not fit into the queue, which includes the piece on the line, is
 // dropped. An empty line takes any piece.
 class Narrow final : public link::Stage {
 public:
-    Narrow(std::uint64_t bytes_s, std::uint64_t queue_bytes, Counter& dropped) noexcept
+    Narrow(std::uint64_t bytes_s, std::uint64_t queue_bytes, Tally dropped) noexcept
         : ns_a_byte_(1e9 / static_cast<double>(bytes_s)),
           queue_bytes_(static_cast<double>(queue_bytes)),
-          dropped_(dropped) {}
+          dropped_(std::move(dropped)) {}
     void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
 
 private:
@@ -170,7 +172,7 @@ private:
 
     double ns_a_byte_, queue_bytes_;
     MonoTime free_at_{};  // when all that was taken has left
-    Counter& dropped_;
+    Tally dropped_;
 };
 
 }  // namespace mavloom::fault::detail

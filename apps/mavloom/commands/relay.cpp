@@ -12,6 +12,7 @@
 #include "mavloom/base/counted.hpp"
 #include "mavloom/edit/stage.hpp"
 #include "mavloom/endpoint/checks.hpp"
+#include "mavloom/fault/faults.hpp"
 #include "mavloom/feed/relay.hpp"
 #include "mavloom/link/signing_times.hpp"
 #include "output.hpp"
@@ -22,6 +23,7 @@ namespace mavloom::app {
 namespace {
 
 struct RelayOptions {
+    std::string fault_log;
     std::vector<std::string> sources, to;
     std::string duration;
     Selection selection;
@@ -181,6 +183,7 @@ SetupResult<void> open_sources(Endpoints given, Endpoints to, feed::Sources& sou
 }
 
 Exit relay(const Common& common, RelayOptions& options) {
+    if (auto opened = fault::log_to(options.fault_log); !opened) return fail(opened.error());
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
     if (auto checked = check_words(options); !checked) return fail(checked.error());
@@ -251,6 +254,8 @@ Run declare_relay(Arguments command, const Common& common) {
     command.add_flag("--json", options->json,
                      "at the end, print the totals as one JSON object on stdout (docs/guide/relay.md)");
     command.add_option("--for", "TIME", options->duration, "end after this time: 10s, 2m");
+    command.add_option("--fault-log", "FILE", options->fault_log,
+                       "write a line for each fault that links have on purpose (docs/guide/faults.md)");
     command.footer(
         "Without options, the output is byte for byte the input. Answers from the far side go back to the "
         "sources. A ring is read losslessly unless ?lossless=false.\n\nExamples:\n"

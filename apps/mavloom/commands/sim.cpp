@@ -9,6 +9,7 @@
 #include "frames/receiving.hpp"
 #include "mavloom/base/durations.hpp"
 #include "mavloom/control/service_manager.hpp"
+#include "mavloom/fault/faults.hpp"
 #include "mavloom/simserve/report.hpp"
 #include "mavloom/simserve/scenario.hpp"
 #include "mavloom/simserve/simulator.hpp"
@@ -73,6 +74,7 @@ constexpr KeyOption key_options[] = {
 };
 
 struct SimOptions {
+    std::string fault_log;
     std::string file;
     std::vector<std::string> to, listen;
     std::vector<std::string> texts = std::vector<std::string>(std::size(key_options));
@@ -213,6 +215,7 @@ void log_recording(const Common& common, const Scenario& scenario, const Simulat
 }
 
 Exit simulate(const Common& common, const SimOptions& options) {
+    if (auto opened = fault::log_to(options.fault_log); !opened) return fail(opened.error());
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
     const auto scenario = make_scenario(options);
@@ -264,6 +267,8 @@ Run declare_sim(Arguments command, const Common& common) {
                              option.description);
     }
     command.add_flag("--json", options->json, "with --report: print one JSON object per line");
+    command.add_option("--fault-log", "FILE", options->fault_log,
+                       "write a line for each fault that links have on purpose (docs/guide/faults.md)");
     command.footer(
         "Simulates vehicles that ground stations and SDKs take for real. Without options, one PX4 quadrotor sends to "
         "port 14550\nof this machine, where a ground station finds it. The vehicle answers every sender.\n\n"

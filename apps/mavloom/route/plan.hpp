@@ -14,6 +14,7 @@
 namespace mavloom::app {
 
 struct RouteOptions {
+    std::string fault_log;
     std::vector<std::string> endpoints;
     std::string config;
     std::string duration;

@@ -8,6 +8,7 @@
 #include "command.hpp"
 #include "explain.hpp"
 #include "mavloom/control/service_manager.hpp"
+#include "mavloom/fault/faults.hpp"
 #include "mavloom/router/router.hpp"
 #include "open_control.hpp"
 #include "page/web_beside.hpp"
@@ -149,6 +150,7 @@ std::string open_page(const Common& common, const config::Config& config, router
 }
 
 Exit route(const Common& common, const RouteOptions& options) {
+    if (auto opened = fault::log_to(options.fault_log); !opened) return fail(opened.error());
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
     if (!options.duration.empty())
@@ -210,6 +212,8 @@ Run declare_route(Arguments command, const Common& common) {
         .default_str("*");
     declare_keys(command, *options);
     command.add_option("--for", "TIME", options->duration, "end after this time: 10s, 2m");
+    command.add_option("--fault-log", "FILE", options->fault_log,
+                       "write a line for each fault that links have on purpose (docs/guide/faults.md)");
     command.footer(
         "Forwards every frame byte for byte: broadcasts to all other links, targeted frames to the links where their "
         "target was heard.\nEach peer of udpin:// and each client of tcpin:// is its own link. tlog://PATH records "

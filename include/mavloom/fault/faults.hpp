@@ -45,6 +45,11 @@ struct Change {
 // now. Errors are `usage`: a wrong specification, no such link, or a ring.
 [[nodiscard]] SetupResult<std::string> change(link::Links& links, std::string_view name, const Change& change);
 
+// From now on, links that get faults write a line to this file for each fault that happens (docs/guide/faults.md). It
+// applies to all Links of the process: call it once, before endpoints are opened. The file is created, or emptied.
+// An empty path: no log.
+[[nodiscard]] SetupResult<void> log_to(const std::string& path);
+
 // The stages for link number `ordinal` of the endpoint `label`.
 [[nodiscard]] link::Stages stages_of(const Plan& plan, std::string_view label, std::uint64_t ordinal,
                                      const link::StageSite& site);

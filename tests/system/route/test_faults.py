@@ -21,11 +21,11 @@ COUNT = 1500
 class Path:
     """vehicle -> a router whose link to it, or to the station, has faults -> station."""
 
-    def __init__(self, spawn, kind="udpin", inward="", outward=""):
+    def __init__(self, spawn, kind="udpin", inward="", outward="", more=()):
         self.port = routers.udp_port() if kind == "udpin" else routers.tcp_port()
         self.station = UdpEnd(label="station")
         self.router = Router(spawn, f"{kind}://{LOCALHOST}:{self.port}?name=vehicle{inward}",
-                             f"udpout://{LOCALHOST}:{self.station.port}?name=station&queue_age=60{outward}")
+                             f"udpout://{LOCALHOST}:{self.station.port}?name=station&queue_age=60{outward}", *more)
         self.vehicle = UdpEnd((LOCALHOST, self.port)) if kind == "udpin" else routers.tcp_client(self.port)
         self.sent = []
 
@@ -254,6 +254,28 @@ def test_a_router_reports_its_faults_at_start_and_in_stat(spawn, run):
         for _ in range(5):
             vehicle.send(routers.attitude())
         harness.wait_for(lambda: "fault_lost 5" in run("stat", name).stdout, what="the counter in stat")
+
+
+def test_the_log_has_a_line_for_each_fault(spawn, tmp_path):
+    log = tmp_path / "faults.tsv"
+    with Path(spawn, inward="&in_fault=loss:0.2,duplicate:0.1", more=("--fault-log", log)) as path:
+        path.send(300)
+        got, link = path.arrived(lambda link: link["frames_in"] - link["fault_duplicated"] + link["fault_lost"] == 300)
+    head, *lines = [line.split("\t") for line in log.read_text().splitlines()]
+    assert head == ["time_us", "link", "direction", "fault", "bytes", "message", "sender", "sequence"]
+    kept = set(got)
+    assert [line[3:] for line in lines if line[3] == "loss"] == [
+        ["loss", str(len(frame)), "30", "1/1", str(frame[4])] for frame in path.sent if frame not in kept]
+    assert sum(line[3] == "duplicate" for line in lines) == link["fault_duplicated"]
+    assert {(line[1], line[2]) for line in lines} == {(link["link"], "in")}
+    assert [int(line[0]) for line in lines] == sorted(int(line[0]) for line in lines)
+
+
+def test_a_log_that_cannot_be_written_is_an_error(run, tmp_path):
+    for command in (["route", "udpin://127.0.0.1:1"], ["relay", "udpin://127.0.0.1:0", "--to", "udpout://127.0.0.1:1"],
+                    ["sim"]):
+        done = run(*command, "--fault-log", tmp_path / "missing" / "faults.tsv")
+        assert done.status == 1 and "cannot create the fault log" in done.stderr, done
 
 
 @pytest.mark.parametrize("fault, injected, counted", [
