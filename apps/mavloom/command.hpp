@@ -45,6 +45,7 @@ struct Command {
     Declare declare;
     bool uses_dialect = true;  // accepts --dialect
     bool is_verbose = false;   // --verbose has an effect
+    bool knows_all = false;    // reads the declarations of all commands
 };
 
 Run declare_route(Arguments, const Common&);

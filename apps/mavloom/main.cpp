@@ -19,6 +19,7 @@
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/base/version.hpp"
 #include "mavloom/endpoint/endpoint.hpp"
+#include "progress.hpp"
 #include "signals.hpp"
 #ifndef MAVLOOM_MINIMAL
 #include "mavloom/ws/transport.hpp"
@@ -52,8 +53,9 @@ constexpr std::array commands{
     Command{"dialect", "look up and check message definitions", declare_dialect},
     Command{"check", "validate a configuration or scenario file", declare_check},
     Command{"bench", "measure Mavloom's throughput on this machine", declare_bench},
-    Command{"manual", "print the command reference as a manual page or Markdown", declare_manual, false},
-    Command{"completion", "print what a shell needs to complete Mavloom's command lines", declare_completion, false},
+    Command{"manual", "print the command reference as a manual page or Markdown", declare_manual, false, false, true},
+    Command{"completion", "print what a shell needs to complete Mavloom's command lines", declare_completion, false,
+            false, true},
 #endif
 };
 
@@ -146,11 +148,12 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app, std::span
     return what + did_you_mean(left.front(), std::vector<std::string_view>(known.begin(), known.end()));
 }
 
-bool is_command(std::string_view word) {
-    for (const auto& command : commands)
-        if (command.name == word) return true;
-    return false;
+const Command* find_command(std::string_view name) {
+    const auto* const found = std::ranges::find(commands, name, &Command::name);
+    return found == commands.end() ? nullptr : &*found;
 }
+
+bool is_command(std::string_view word) { return find_command(word) != nullptr; }
 
 // Returns an error text for an option before the command, as in "mavloom --dialect mine.xml listen ...".
 std::optional<std::string> option_before_command(std::span<const std::string> arguments) {
@@ -177,6 +180,24 @@ std::vector<const char*> pointers_to(std::span<const std::string> words) {
     return pointers;
 }
 
+using Runs = std::vector<std::pair<CLI::App*, Run>>;
+
+// Adds the command that `first` names, or the names of all: declaring all options of all commands takes milliseconds.
+Runs add_commands(CLI::App& app, Common& common, std::string_view first) {
+    const auto* const named = find_command(first);
+    Runs runs;
+    for (const auto& command : commands) {
+        const bool is_declared = named != nullptr && (named == &command || named->knows_all);
+        if (named != nullptr && !is_declared) continue;
+        auto* const sub = app.add_subcommand(std::string(command.name), std::string(command.description));
+        if (!is_declared) continue;
+        add_common(*sub, common, command);
+        runs.emplace_back(sub, command.declare(Arguments(sub), common));
+        refuse_empty_values(*sub);
+    }
+    return runs;
+}
+
 Exit run(std::span<const std::string> words) {
     const std::string_view first = words.size() > 1 ? words[1] : std::string_view{};
     if (first == "--version") {
@@ -191,13 +212,7 @@ Exit run(std::span<const std::string> words) {
     app.footer(footer());
     app.require_subcommand(1);
     app.add_flag("--version")->description("print the version");
-    std::vector<std::pair<CLI::App*, Run>> runs;
-    for (const auto& command : commands) {
-        CLI::App* sub = app.add_subcommand(std::string(command.name), std::string(command.description));
-        add_common(*sub, common, command);
-        runs.emplace_back(sub, command.declare(Arguments(sub), common));
-        refuse_empty_values(*sub);
-    }
+    const auto runs = add_commands(app, common, first);
     try {
         app.parse(static_cast<int>(words.size()), pointers_to(words).data());
     } catch (const CLI::Success& help) {
@@ -234,7 +249,7 @@ void write_stderr(std::string_view text) noexcept {
     }
 }
 
-void write_stderr_line(std::string_view line) { write_stderr(printable(line) + "\n"); }
+void write_stderr_line(std::string_view line) { write_stderr(erase_progress() + printable(line) + "\n"); }
 
 Exit fail(Exit status, std::string_view text) {
     write_stderr_line(fmt::format("mavloom: {}", text));

@@ -2,9 +2,10 @@
 #include "progress.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <algorithm>
+#include <atomic>
 
 namespace mavloom::app {
 
@@ -12,48 +13,52 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto quick = 300ms, between = 100ms;  // what is done sooner needs no bar
+constexpr auto quick = 300ms, between = 100ms;  // what is done sooner needs no progress
+std::atomic<std::size_t> progress_width{0};     // of the line on the screen
 
-std::string bar(std::uint64_t done, std::uint64_t total) {
-    const auto megabytes = static_cast<double>(done) / 1e6;
-    if (total == 0) return fmt::format("{:.0f} MB", megabytes);
-    constexpr std::size_t width = 30;
-    const double part = std::min(1.0, static_cast<double>(done) / static_cast<double>(total));
-    const auto full = static_cast<std::size_t>(part * width);
-    return fmt::format("[{:#<{}}{:.<{}}] {:3.0f} %  {:.0f} of {:.0f} MB", "", full, "", width - full, 100 * part,
-                       megabytes, static_cast<double>(total) / 1e6);
+int width_of_errors() {
+    constexpr int usual = 80;
+    winsize size{};
+    return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col != 0 ? size.ws_col : usual;
+}
+
+// A job in the background would write into what the user types.
+bool is_in_background() {
+    const auto group = ::tcgetpgrp(STDERR_FILENO);
+    return group > 0 && group != ::getpgrp();
 }
 
 }  // namespace
 
 Progress::Progress(const Common& common)
-    : is_shown_(!common.quiet && ::isatty(STDERR_FILENO) != 0), next_(mono_now() + quick) {}
+    : is_shown_(!common.quiet && ::isatty(STDERR_FILENO) != 0), next_(mono_now() + quick), meter_(mono_now()) {}
 
 bool Progress::is_due() {
     if (!is_shown_) return false;
     const auto now = mono_now();
     if (now < next_) return false;
     next_ = now + between;
-    return true;
-}
-
-void Progress::draw(std::string_view text) {
-    write_stderr(fmt::format("\r{:<{}}", text, width_));
-    width_ = text.size();
-}
-
-void Progress::show(std::uint64_t done_bytes, std::uint64_t total_bytes) {
-    if (is_due()) draw(bar(done_bytes, total_bytes));
+    return !is_in_background();
 }
 
 void Progress::show(std::string_view text) {
-    if (is_due()) draw(text);
+    const auto before = progress_width.exchange(text.size());
+    write_stderr(fmt::format("\r{:<{}}", text, before));
+}
+
+void Progress::show(const ProgressMade& made) { show(meter_.line(made, mono_now(), width_of_errors())); }
+
+void Progress::clear() { write_stderr(erase_progress()); }
+
+void Progress::restart() {
+    meter_ = ProgressMeter(mono_now());
+    next_ = mono_now() + quick;
 }
 
 // Without escape sequences, which not every terminal has.
-void Progress::clear() {
-    if (width_ != 0) write_stderr(fmt::format("\r{:{}}\r", "", width_));
-    width_ = 0;
+std::string erase_progress() {
+    const auto width = progress_width.exchange(0);
+    return width == 0 ? std::string() : fmt::format("\r{:{}}\r", "", width);
 }
 
 }  // namespace mavloom::app

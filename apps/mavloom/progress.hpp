@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A progress bar on stderr, for work that takes a while. It appears only on a terminal, without --quiet, and leaves no
-// trace when it is destroyed. One owner thread.
+// A progress line on stderr, for work that takes a while. It appears only on a terminal, without --quiet, while the
+// program is in the foreground, and leaves no trace when it is destroyed. One owner thread.
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "command.hpp"
 #include "mavloom/base/clock.hpp"
+#include "mavloom/base/progress_meter.hpp"
 
 namespace mavloom::app {
 
@@ -18,19 +20,22 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    // Cheap, and draws ten times a second at most. `total` is 0 if it is not known.
-    void show(std::uint64_t done_bytes, std::uint64_t total_bytes);
-    // The same for a text of its own.
+    // True ten times a second at most, and only if the line is shown. Cheap. `show` is for a caller that got true.
+    [[nodiscard]] bool is_due();
+    void show(const ProgressMade& made);
     void show(std::string_view text);
     void clear();
+    // Counts time and rates from now.
+    void restart();
 
 private:
-    [[nodiscard]] bool is_due();
-    void draw(std::string_view text);
-
     const bool is_shown_;
     MonoTime next_;
-    std::size_t width_ = 0;  // of what is on the screen
+    ProgressMeter meter_;
 };
+
+// Returns the characters that erase the progress line, if there is one, and notes that it is gone. A line of the log
+// thus takes its place. Any thread.
+[[nodiscard]] std::string erase_progress();
 
 }  // namespace mavloom::app

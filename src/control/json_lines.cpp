@@ -37,6 +37,8 @@ void append_link(std::string& text, const link::Snapshot& snapshot, const link::
                  {"endpoint", snapshot.endpoint_label(link.endpoint)},
                  {"up", link.up},
                  {"rank", name_of(link.rank)},
+                 {"queued_bytes", link.queued_bytes},
+                 {"queue_limit_bytes", link.queue_limit_bytes},
                  {"faults", link.stages.empty() ? "off" : link.stages}},
                 link.counts);
 }

@@ -96,7 +96,7 @@ struct Link {
     Sending sending = Sending::queued;
     Signature* signature = nullptr;
     std::unique_ptr<Border> border;  // null: no stages
-    std::size_t max_held_bytes;      // by stages, in each direction
+    std::size_t max_held_bytes;      // queue_bytes=: by the queue, and by stages in each direction
     LinkCounters counters;
     std::uint64_t frames_repeated = 0;  // of frames_in: those that another endpoint had heard; see RxFrame::is_repeated
     // Frames of strangers use the second lane, all others the first.

@@ -249,7 +249,8 @@ std::vector<LinkInfo> Links::links(std::span<const LinkId> ids) const {
         const Link* const l = core_->links.find(id);
         if (l == nullptr) continue;
         if (auto* const endpoint = core_->endpoints.find(l->endpoint)) endpoint->settle_sent();
-        infos.push_back({l->id, l->endpoint, l->name, l->up, l->rank, &l->counters, l->border ? l->border->text() : ""});
+        infos.push_back({l->id, l->endpoint, l->name, l->up, l->rank, &l->counters, l->queued_bytes(),
+                         l->max_held_bytes, l->border ? l->border->text() : ""});
     }
     return infos;
 }

@@ -44,6 +44,8 @@ void add_links(Snapshot& snapshot, const Links& links, std::span<const LinkId> i
                                   std::move(link.name),
                                   link.up,
                                   link.rank,
+                                  link.queued_bytes,
+                                  link.queue_limit_bytes,
                                   counts_of(*link.counters),
                                   {sources.begin(), sources.end()},
                                   std::move(link.stages)});

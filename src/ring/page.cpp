@@ -16,9 +16,9 @@ static void set(Counter* counter, std::uint64_t value) noexcept {
 }
 
 SetupResult<RingPage> RingPage::create(const std::string& ring, unsigned mode) {
-    constexpr std::uint32_t of_ring = 32;
+    constexpr std::uint32_t of_ring = 32, gauges_of_row = 3;
     shm::CounterPageOptions options;
-    options.counters = of_ring + max_own_counts + (paged_counters.size() + 1) * max_rows;
+    options.counters = of_ring + max_own_counts + (paged_counters.size() + gauges_of_row) * max_rows;
     options.links = route::Engine::max_links;
     options.mode = mode;
     options.sets_aside = true;
@@ -70,7 +70,7 @@ void RingPage::inherit(const std::map<LinkId, std::string>& names) {
 
 void RingPage::remove_row(std::map<LinkId, Row>::iterator row) {
     for (Counter* const word : row->second.words) page_.remove(word);
-    page_.remove(row->second.up);
+    for (Counter* const gauge : {row->second.up, row->second.queued, row->second.queue_limit}) page_.remove(gauge);
     rows_.erase(row);
 }
 
@@ -89,8 +89,9 @@ void RingPage::choose_rows(const std::vector<const link::LinkInfo*>& busiest) {
 
 void RingPage::add_row(LinkId link) {
     if (rows_.contains(link)) return;
-    rows_.emplace(link,
-                  Row{add_words("", shm::CounterType::counter, link), page_.add("up", shm::CounterType::gauge, link)});
+    const auto add_gauge = [&](std::string_view label) { return page_.add(label, shm::CounterType::gauge, link); };
+    rows_.emplace(link, Row{add_words("", shm::CounterType::counter, link), add_gauge("up"), add_gauge("queued_bytes"),
+                            add_gauge("queue_limit_bytes")});
 }
 
 void RingPage::refresh(const std::vector<link::LinkInfo>& links, const std::vector<link::EndpointInfo>& endpoints,
@@ -104,6 +105,8 @@ void RingPage::refresh(const std::vector<link::LinkInfo>& links, const std::vect
             continue;
         }
         set(row->second.up, link.up ? 1 : 0);
+        set(row->second.queued, link.queued_bytes);
+        set(row->second.queue_limit, link.queue_limit_bytes);
         for (std::size_t i = 0; i < paged_counters.size(); ++i)
             set(row->second.words[i], (link.counters->*paged_counters[i].word).value());
     }

@@ -119,6 +119,28 @@ int selected_line(const std::vector<Line>& lines, const State& state) {
     return -1;
 }
 
+// Breaks the text at blanks. Returns the line below it.
+int put_wrapped(Grid& grid, int y, int end, std::string_view text, Ink ink) {
+    const int width = grid.size().width;
+    int x = 1;
+    while (!text.empty() && y < end) {
+        const auto word = text.substr(0, text.find(' '));
+        text.remove_prefix(std::min(text.size(), word.size() + 1));
+        if (x > 1 && x + width_of(word) > width) {
+            x = 3;
+            if (++y == end) break;
+        }
+        x = grid.put(x, y, word, ink) + 1;
+    }
+    return y + 1;
+}
+
+void draw_empty(Grid& grid, const Layout& its, const Snapshot& shown) {
+    int y = put_wrapped(grid, its.body, its.end, "nothing to show", Ink::dim);
+    if (shown.frames != 0) return;
+    for (const auto& hint : shown.hints) y = put_wrapped(grid, y, its.end, hint, Ink::plain);
+}
+
 void draw_table(Grid& grid, const Layout& its, const Snapshot& shown, State& state) {
     const auto table = make_table(state.tab, shown, state, grid.size().width);
     auto& first = state.first[static_cast<std::size_t>(state.tab)];
@@ -130,7 +152,7 @@ void draw_table(Grid& grid, const Layout& its, const Snapshot& shown, State& sta
     if (its.head >= 0) table->draw_head(grid, its.head);
     for (int i = 0; i < height && first + i < table->size(); ++i) table->draw_line(grid, its.body + i, first + i);
     if (selected >= first && selected - first < height) grid.reverse(its.body + selected - first);
-    if (table->size() == 0) grid.put(1, its.body, "nothing to show", Ink::dim);
+    if (table->size() == 0) draw_empty(grid, its, shown);
 }
 
 void draw_open(Grid& grid, const Layout& its, const Snapshot& shown, State& state, const Row& row) {

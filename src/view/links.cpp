@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "view/table.hpp"
 #include "view/words.hpp"
@@ -11,8 +13,8 @@ namespace mavloom::view {
 namespace {
 
 constexpr std::array kinds{"source", "router", "simulator", "listener", "relay", "page"};
-constexpr std::array<int, 5> link_ends{44, 54, 64, 74, 84};
-constexpr std::array<std::string_view, 5> titles{"LINK", "HZ IN", "HZ OUT", "IN", "OUT"};
+constexpr std::array<int, 6> link_ends{44, 52, 60, 69, 78, 85};
+constexpr std::array<std::string_view, 6> titles{"LINK", "HZ IN", "HZ OUT", "IN", "OUT", "QUEUE"};
 
 // A program, a link of it, or frames that either of them lost.
 struct LinkLine {
@@ -82,6 +84,19 @@ private:
         const auto rate = [](const std::optional<double>& hz) { return hz ? hz_text(*hz) : "-"; };
         const std::array texts{rate(its.hz_in), rate(its.hz_out), count_text(its.frames_in), count_text(its.frames_out)};
         for (std::size_t i = 0; i < texts.size(); ++i) grid.put_right(place(grid, i + 1), y, texts[i], Ink::plain);
+        if (const auto fill = fill_of(its)) draw_fill(grid, y, *fill);
+    }
+
+    // How full the queue is, 0 to 1.
+    static std::optional<double> fill_of(const observe::Hop& /*hop*/) { return std::nullopt; }
+    static std::optional<double> fill_of(const observe::HopLink& link) {
+        if (link.queue_limit_bytes == 0) return std::nullopt;
+        return static_cast<double>(link.queued_bytes) / static_cast<double>(link.queue_limit_bytes);
+    }
+    static void draw_fill(Grid& grid, int y, double fill) {
+        constexpr double much = 0.25, nearly_full = 0.75;
+        const auto ink = fill >= nearly_full ? Ink::bad : fill >= much ? Ink::warning : Ink::plain;
+        grid.put_right(place(grid, link_ends.size() - 1), y, fmt::format("{:.0f} %", std::ceil(100 * fill)), ink);
     }
 
     const std::vector<LinkLine> lines_;

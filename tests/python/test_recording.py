@@ -1,12 +1,18 @@
 # SPDX-License-Identifier: MIT
 """mavloom.read() against pymavlink's reader on the recorded flight and on damaged files.
 "Row N": the wishes listed in docs/guide/python.md."""
+import contextlib
+import fcntl
 import json
 import math
 import os
+import pty
+import re
 import signal
+import struct
 import subprocess
 import sys
+import termios
 import threading
 import time
 
@@ -339,3 +345,49 @@ def test_packer_and_reader_agree(peer, tmp_path):
                  [sender.pack(peer.MAVLink_heartbeat_message(1, 2, 3, i, 5, 3)) for i in range(300)])
     assert ([(m.seq, m.custom_mode, m.sys, m.comp) for m in mavloom.read(path)]
             == [(i % 256, i, 2, 3) for i in range(300)])
+
+
+# ---- progress --------------------------------------------------------------------------------------------------------
+
+SLOW_READER = """
+import sys, time
+import mavloom
+recording = mavloom.read(sys.argv[1], **({"progress": True} if sys.argv[2] == "yes" else {}))
+for number, message in enumerate(recording):
+    if number % 512 == 0:
+        time.sleep(0.01)
+assert number == 40086
+recording.rewind()
+assert next(iter(recording)).name
+print(recording.summary().frames)
+"""
+
+
+def text_on_terminal(flight, progress, environment):
+    ours, theirs = pty.openpty()
+    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 60, 0, 0))
+    with subprocess.Popen([sys.executable, "-c", SLOW_READER, flight, progress], stdout=subprocess.PIPE, stderr=theirs,
+                          env=environment, text=True) as process:
+        os.close(theirs)
+        seen = b""
+        with contextlib.suppress(OSError):  # the end of a terminal
+            while chunk := os.read(ours, 4096):
+                seen += chunk
+        os.close(ours)
+        assert process.stdout.read() == "40087\n", seen
+    return seen.decode()
+
+
+def test_progress_is_shown_on_a_terminal_if_it_is_asked_for(flight, child_environment):
+    seen = text_on_terminal(flight, "yes", child_environment)
+    lines = [line.rstrip() for line in seen.split("\r") if line.strip()]
+    assert lines and all(re.fullmatch(r" *\d+ %  \d+ frames  .*00:0\d.*left", line) for line in lines), seen
+    assert max(map(len, lines)) < 60 and re.search(r"\r +\r$", seen), "the line fits, and is erased at the end"
+    assert text_on_terminal(flight, "no", child_environment) == ""
+
+
+def test_progress_off_a_terminal_is_silent(flight, child_environment):
+    done = subprocess.run([sys.executable, "-c", SLOW_READER, flight, "yes"], capture_output=True, text=True,
+                          env=child_environment, check=True)
+    assert done.stderr == ""
+    assert mavloom.read(flight, progress=True).summary().frames == 40087  # under pytest, whose stderr is no file

@@ -10,6 +10,7 @@
 #include "frames/sending.hpp"
 #include "frames/traffic_report.hpp"
 #include "output.hpp"
+#include "progress.hpp"
 #include "signals.hpp"
 
 namespace mavloom::app {
@@ -17,6 +18,7 @@ namespace mavloom::app {
 namespace {
 
 constexpr std::chrono::milliseconds retry_interval{100};
+constexpr std::uint64_t frames_between_looks = 4096;
 
 struct RecordOptions {
     ReceiveOptions receive;
@@ -32,7 +34,18 @@ class Recording {
 public:
     Recording(const Common& common, const RecordOptions& options, feed::Receiver& receiver,
               record::RotatingWriter& writer, MonoTime end)
-        : common_(common), options_(options), receiver_(receiver), writer_(writer), end_(end) {}
+        : common_(common),
+          options_(options),
+          receiver_(receiver),
+          writer_(writer),
+          end_(end),
+          begin_(mono_now()),
+          progress_(common) {
+        for (const auto& source : options.receive.sources) {
+            const auto endpoint = endpoint::parse_endpoint(source);
+            total_bytes_ += endpoint ? recorded_bytes(*endpoint) : 0;
+        }
+    }
 
     // Runs until the end. Flushes records to the system whenever idle, so that a kill loses little.
     SetupResult<void> run() {
@@ -42,7 +55,9 @@ public:
                 if (!options_.selection.filter.admits(entry->frame)) continue;
                 if (auto written = write(*entry); !written) return written;
                 if (writer_.taken_records() == options_.receive.count) return {};
+                if (writer_.taken_records() % frames_between_looks == 0) show_progress();
             }
+            show_progress();
             if (auto flushed = flush(); !flushed) return flushed;
         }
         return {};
@@ -85,13 +100,30 @@ private:
         return done;
     }
 
+    void show_progress() {
+        if (!progress_.is_due()) return;
+        progress_.show({.frames = writer_.taken_records(), .bytes = writer_.written_bytes(), .part = part_done()});
+    }
+
+    // By the limit that was given. Empty: there is none.
+    [[nodiscard]] std::optional<double> part_done() {
+        if (options_.receive.count != 0)
+            return static_cast<double>(writer_.taken_records()) / static_cast<double>(options_.receive.count);
+        if (end_ != MonoTime::max())
+            return std::chrono::duration<double>(mono_now() - begin_) / std::chrono::duration<double>(end_ - begin_);
+        if (total_bytes_ == 0) return std::nullopt;
+        return static_cast<double>(bytes_read(receiver_)) / static_cast<double>(total_bytes_);
+    }
+
     [[nodiscard]] bool may_continue() const { return !Signals::received() && mono_now() < end_; }
 
     const Common& common_;
     const RecordOptions& options_;
     feed::Receiver& receiver_;
     record::RotatingWriter& writer_;
-    MonoTime end_;
+    MonoTime end_, begin_;
+    Progress progress_;
+    std::uint64_t total_bytes_ = 0;  // of recordings
 };
 
 // Accepts FILE with any name, or with options: tlog://PATH?... or PATH.tlog?rotate_every=...

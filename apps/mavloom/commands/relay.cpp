@@ -16,6 +16,7 @@
 #include "mavloom/feed/relay.hpp"
 #include "mavloom/link/signing_times.hpp"
 #include "output.hpp"
+#include "progress.hpp"
 #include "signals.hpp"
 
 namespace mavloom::app {
@@ -55,14 +56,18 @@ private:
     std::optional<link::SigningTimes>& times_;
 };
 
-// Logs the events of the relay. A signal ends it.
+// Logs the events of the relay, and shows how far it is in recordings. A signal ends it.
 class Events final : public feed::RelayHandler {
 public:
-    Events(const Common& common, KeptTimes& times) : common_(common), times_(times) {}
+    Events(const Common& common, KeptTimes& times, const feed::Sources& sources, const edit::Stage& stage)
+        : common_(common), times_(times), sources_(sources), stage_(stage), progress_(common) {}
+
+    void clear() { progress_.clear(); }
 
 private:
     bool should_stop() override {
         times_.keep();
+        show_progress();
         return Signals::received();
     }
     void on_waiting() override { print_event(common_, "waiting until every destination has a peer"); }
@@ -75,8 +80,18 @@ private:
     }
     void on_notice(std::string_view text) override { print_event(common_, text); }
 
+    void show_progress() {
+        if (!sources_.are_recordings() || !progress_.is_due()) return;
+        std::uint64_t bytes = 0;
+        for (const auto& recording : sources_.recordings()) bytes += recording->reader.position();
+        progress_.show({.frames = stage_.counters().frames.value(), .bytes = bytes, .part = part_read(sources_)});
+    }
+
     const Common& common_;
     KeptTimes& times_;
+    const feed::Sources& sources_;
+    const edit::Stage& stage_;
+    Progress progress_;
 };
 
 std::string_view filters_of(const Selection& selection) {
@@ -206,10 +221,11 @@ Exit relay(const Common& common, RelayOptions& options) {
     const auto end = options.duration.empty() ? MonoTime::max()
                                               : mono_now() + *endpoint::parse_duration(options.duration);
     KeptTimes kept(common, **stage, *times);
-    Events events(common, kept);
+    Events events(common, kept, *sources, **stage);
     using Signing = feed::Relay::Signing;
     feed::Relay relaying(*sources, *destinations, **stage, events, options.edit.sign_key ? Signing::on : Signing::off);
     const auto outcome = relaying.run(end);
+    events.clear();
     const auto& counters = (*stage)->counters();
     log_report(common, options, *destinations, counters, outcome);
     const auto printed = options.json ? print_at_end(summary(*destinations, counters, outcome), Exit::done) : Exit::done;

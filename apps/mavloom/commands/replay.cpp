@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -17,6 +16,7 @@
 #include "mavloom/link/flush.hpp"
 #include "mavloom/record/tlog_index.hpp"
 #include "output.hpp"
+#include "progress.hpp"
 #include "signals.hpp"
 
 namespace mavloom::app {
@@ -41,9 +41,10 @@ class Replayer : private link::LinkHandler {
 public:
     Replayer(const Common& common, const ReplayOptions& options, feed::Sources& sources,
              feed::Destinations& destinations)
-        : common_(common), options_(options), sources_(sources), destinations_(destinations) {}
+        : common_(common), options_(options), sources_(sources), destinations_(destinations), progress_(common) {}
 
     Exit run(MonoTime end) {
+        progress_.restart();
         while (going(end) && !destinations_.failed() && !sources_.finished_recordings()) {
             const std::size_t room = std::min(frames_a_turn, destinations_.room_in_frames());
             sources_.turn(*this, std::min(end, mono_now() + (room == 0 ? 1ms : 100ms)), feed::Room(room));
@@ -51,7 +52,7 @@ public:
             show_progress();
         }
         link::flush(sources_.links(), *this, longest_flush);
-        if (progress_shown_) write_stderr("\n");
+        progress_.clear();
         return finish();
     }
 
@@ -75,15 +76,8 @@ private:
     static bool going(MonoTime end) { return !Signals::received() && mono_now() < end; }
 
     void show_progress() {
-        const auto now = mono_now();
-        if (common_.quiet || now < next_progress_ || ::isatty(STDERR_FILENO) == 0) return;
-        next_progress_ = now + 250ms;
-        progress_shown_ = true;
-        const auto& reader = sources_.recordings().front()->reader;
-        const double part = reader.size() == 0
-                                ? 0
-                                : static_cast<double>(reader.position()) / static_cast<double>(reader.size());
-        write_stderr(fmt::format("\r{:5.1f} %  {} sent ", 100 * part, counted(destinations_.sent(), "frame")));
+        if (!progress_.is_due()) return;
+        progress_.show({.frames = frames_, .bytes = bytes_, .part = part_read(sources_)});
     }
 
     std::string summary() const {
@@ -120,8 +114,7 @@ private:
     const ReplayOptions& options_;
     feed::Sources& sources_;
     feed::Destinations& destinations_;
-    MonoTime next_progress_{};
-    bool progress_shown_ = false;
+    Progress progress_;
     std::uint64_t frames_ = 0, bytes_ = 0;  // read from the recording so far
 };
 

@@ -63,7 +63,8 @@ void print_traffic(fmt::appender out, const Json& o) {
     fmt::format_to(out, "  in {}, {}; out {}, {}\n", counted(o.value("frames_in", 0ull), "frame"),
                    counted(o.value("bytes_in", 0ull), "byte"), counted(o.value("frames_out", 0ull), "frame"),
                    counted(o.value("bytes_out", 0ull), "byte"));
-    const auto rest = counts_of(o, {"id", "frames_in", "bytes_in", "frames_out", "bytes_out", "forwarded"});
+    const auto rest = counts_of(
+        o, {"id", "frames_in", "bytes_in", "frames_out", "bytes_out", "forwarded", "queue_limit_bytes"});
     if (!rest.empty()) fmt::format_to(out, "  {}\n", rest);
 }
 void print_link(fmt::appender out, const Json& o) {

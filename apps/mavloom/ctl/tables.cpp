@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "ctl/answers.hpp"
@@ -14,8 +15,21 @@ namespace mavloom::app {
 
 namespace {
 
-// How the value of a key is shown. `sender` and `lost` join it with other keys of the object.
-enum class Form : std::uint8_t { text, count, bytes, whole, tenths, hundredths, degrees, up, yes, sender, lost };
+// How the value of a key is shown. `sender`, `lost` and `filled` join it with other keys of the object.
+enum class Form : std::uint8_t {
+    text,
+    count,
+    bytes,
+    whole,
+    tenths,
+    hundredths,
+    degrees,
+    up,
+    yes,
+    sender,
+    lost,
+    filled
+};
 
 struct Shown {
     std::string_view title, key;
@@ -53,7 +67,8 @@ const std::vector<Layout>& layouts() {
           {"OUT", "frames_out"},
           {"BYTES IN", "bytes_in", Form::bytes, 3},
           {"BYTES OUT", "bytes_out", Form::bytes, 3},
-          {"LOST", "lost", Form::count, 1}},
+          {"LOST", "lost", Form::count, 1},
+          {"QUEUE", "queued_bytes", Form::filled, 2}},
          true},
         {"endpoint", {{"ENDPOINT", "endpoint", Form::text}, {"RECEIVE BUFFER", "rcvbuf", Form::bytes, 1}}, true},
         {"recording",
@@ -119,6 +134,11 @@ std::string lost_text(const Json& object) {
     return lost == 0 ? "0" : fmt::format("{:.0f} ({:.1f} %)", lost, 100 * lost / (frames + lost));
 }
 
+std::string filled_text(const Json& link) {
+    const auto limit = link.value("queue_limit_bytes", 0.0);
+    return limit == 0 ? "-" : fmt::format("{:.0f} %", std::ceil(100 * link.value("queued_bytes", 0.0) / limit));
+}
+
 std::string text_of(const Json& value) {
     if (value.is_string()) return value.get<std::string>();
     return value.is_number_float() ? fmt::format("{:.7g}", value.get<double>()) : value.dump();
@@ -140,12 +160,13 @@ std::string cell_of(const Json& object, const Shown& shown) {
         case Form::yes: return found->get<bool>() ? "yes" : "no";
         case Form::sender: return fmt::format("{}/{}", object.value("sys", 0), object.value("comp", 0));
         case Form::lost: return lost_text(object);
+        case Form::filled: return filled_text(object);
     }
     return {};
 }
 
 std::string rest_of(const Json& object, const Layout& layout) {
-    std::vector<std::string_view> shown{"forwarded"};
+    std::vector<std::string_view> shown{"forwarded", "queue_limit_bytes"};
     for (const auto& column : layout.columns) shown.push_back(column.key);
     if (layout.kind == "gone") std::erase(shown, "forwarded");
     auto rest = nonzero(object, shown);

@@ -5,10 +5,9 @@
 #include <poll.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
+#include "frames/receiving.hpp"
 #include "page/page_hop.hpp"
 #include "signals.hpp"
 
@@ -48,12 +47,6 @@ void add_to(std::vector<observe::NamedCount>& to, const std::vector<link::NamedC
         if (its.value != 0) to.push_back({std::string(its.name), its.value});
 }
 
-std::uint64_t size_of(const endpoint::Endpoint& endpoint) {
-    std::error_code none;
-    const auto size = endpoint.is_recording() ? std::filesystem::file_size(endpoint.path, none) : 0;
-    return none ? 0 : size;
-}
-
 // Errors of the system repeat the name of the source, which stands before them anyway.
 std::string without_name(const std::string& text, const std::string& name) {
     const auto prefix = name + ": ";
@@ -79,7 +72,7 @@ SetupResult<std::unique_ptr<Listening>> Listening::create(const Common& common, 
 
 SetupResult<void> Listening::add(const endpoint::Endpoint& endpoint, Asked asked) {
     are_recordings_ = endpoint.is_recording();
-    total_bytes_ += size_of(endpoint);
+    total_bytes_ += recorded_bytes(endpoint);
     auto& source = *sources_.emplace_back(std::make_unique<OfSource>(endpoint, asked, dialect_));
     auto added = receiver_->add(endpoint);
     if (added) {
@@ -180,16 +173,18 @@ std::uint64_t Listening::frames() const {
 }
 
 void Listening::show_progress(Progress& progress, MonoTime now, MonoTime end) {
+    if (!progress.is_due()) return;
     if (!are_recordings_) {
         const auto left = std::chrono::ceil<std::chrono::seconds>(std::max<Nanoseconds>(end - now, {}));
         progress.show(fmt::format("listening, {} s left ({} frames)", left.count(), frames()));
         return;
     }
-    std::uint64_t done = 0;
-    for (const auto& source : receiver_->counts().sources)
-        for (const auto& its : source.counts)
-            if (its.name == "bytes_in") done += its.value;
-    progress.show(done, total_bytes_);
+    const auto done = bytes_read(*receiver_);
+    progress.show({.frames = frames(),
+                   .bytes = done,
+                   .part = total_bytes_ == 0
+                               ? std::nullopt
+                               : std::optional(static_cast<double>(done) / static_cast<double>(total_bytes_))});
 }
 
 void Listening::add_source(observe::Evidence& evidence, OfSource& source, const feed::Receiver::Counts& counts) {

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <filesystem>
+#include <system_error>
 
 #include "mavloom/base/shown.hpp"
 #include "mavloom/endpoint/grammar.hpp"
@@ -48,6 +50,30 @@ void log_ports(const Common& common, const std::vector<link::EndpointInfo>& endp
     for (const auto& info : endpoints)
         if (info.endpoint.address.port == 0 && info.local_port != 0)
             print_notice(common, fmt::format("{}: listening on port {}", info.endpoint.label(), info.local_port));
+}
+
+std::uint64_t recorded_bytes(const endpoint::Endpoint& endpoint) {
+    std::error_code none;
+    const auto size = endpoint.is_recording() ? std::filesystem::file_size(endpoint.path, none) : 0;
+    return none ? 0 : size;
+}
+
+std::uint64_t bytes_read(feed::Receiver& receiver) {
+    std::uint64_t sum = 0;
+    for (const auto& source : receiver.counts().sources)
+        for (const auto& its : source.counts)
+            if (its.name == "bytes_in") sum += its.value;
+    return sum;
+}
+
+std::optional<double> part_read(const feed::Sources& sources) {
+    std::uint64_t read = 0, all = 0;
+    for (const auto& recording : sources.recordings()) {
+        read += recording->reader.position();
+        all += recording->reader.size();
+    }
+    if (all == 0) return std::nullopt;
+    return static_cast<double>(read) / static_cast<double>(all);
 }
 
 SetupResult<std::unique_ptr<feed::Receiver>> ReceiveOptions::open(const Common& common, const dialect::Dialect& dialect,

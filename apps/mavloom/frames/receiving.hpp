@@ -4,12 +4,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "command.hpp"
 #include "mavloom/dialect/filter.hpp"
 #include "mavloom/feed/receiver.hpp"
+#include "mavloom/feed/sources.hpp"
 
 namespace mavloom::app {
 
@@ -27,6 +29,13 @@ struct Selection {
 // Logs the ports of endpoints that were opened with port 0. Call it after Signals is constructed: a program that waits
 // for these lines may send a signal at once.
 void log_ports(const Common& common, const std::vector<link::EndpointInfo>& endpoints);
+
+// The bytes of a recording. 0: it is a link, a ring or a pipe.
+[[nodiscard]] std::uint64_t recorded_bytes(const endpoint::Endpoint& endpoint);
+// The bytes that were read of the recordings, and received from the links.
+[[nodiscard]] std::uint64_t bytes_read(feed::Receiver& receiver);
+// How much was read of the recordings, 0 to 1. Empty if there is no recording, or only pipes.
+[[nodiscard]] std::optional<double> part_read(const feed::Sources& sources);
 
 struct ReceiveOptions {
     std::vector<std::string> sources;

@@ -29,6 +29,11 @@ struct InfoOptions {
     [[nodiscard]] bool has_tracks() const noexcept { return !gpx.empty() || !kml.empty(); }
 };
 
+std::optional<double> part_of(const record::TlogReader& reader) {
+    if (reader.size() == 0) return std::nullopt;  // a pipe
+    return static_cast<double>(reader.position()) / static_cast<double>(reader.size());
+}
+
 class InfoReader {
 public:
     InfoReader(const Common& common, const dialect::Dialect& dialect, bool with_tracks)
@@ -40,6 +45,7 @@ public:
         if (!reader) return tl::unexpected(std::move(reader.error()));
         using Tracks = observe::Summarizer::Tracks;
         observe::Summarizer summarizer(dialect_, with_tracks_ ? Tracks::yes : Tracks::no);
+        progress_.restart();
         const auto done = read_all(*reader, summarizer);
         progress_.clear();
         if (!done) return tl::unexpected(done.error());
@@ -60,7 +66,7 @@ private:
             if (!done) return tl::unexpected(done.error());
             if (*done == feed::Summarized::all) return {};
             if (*done == feed::Summarized::nothing_yet) static_cast<void>(reader.wait(100ms));
-            progress_.show(reader.position(), reader.size());
+            if (progress_.is_due()) progress_.show({.bytes = reader.position(), .part = part_of(reader)});
         }
         return setup_error(SetupCode::system, "");
     }

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <span>
+#include <system_error>
 
 #include "mavloom/endpoint/endpoint.hpp"
 #include "mavloom/link/links.hpp"
@@ -25,6 +28,31 @@ Running find_running() {
             running.without_ring.push_back(name);
     }
     return running;
+}
+
+static std::vector<std::string> devices_in(const std::filesystem::path& folder, std::string_view prefix) {
+    std::vector<std::string> found;
+    std::error_code failed;
+    for (std::filesystem::directory_iterator file(folder, failed), end; !failed && file != end; file.increment(failed))
+        if (file->path().filename().string().starts_with(prefix)) found.push_back(file->path().string());
+    std::ranges::sort(found);
+    return found;
+}
+
+std::vector<std::string> serial_ports() {
+    if (auto named = devices_in("/dev/serial/by-id", ""); !named.empty()) return named;
+    auto all = devices_in("/dev", "ttyACM");
+    for (auto& usb : devices_in("/dev", "ttyUSB")) all.push_back(std::move(usb));
+    return all;
+}
+
+std::string serial_hint() {
+    constexpr std::size_t most = 4;
+    const auto ports = serial_ports();
+    if (ports.empty()) return {};
+    const std::span some(ports.data(), std::min(ports.size(), most));
+    return fmt::format("a vehicle may be at {}: to read it, name the source 'serial://{}?baud=57600'",
+                       fmt::join(some, ", "), ports.front());
 }
 
 std::string ring_hint(const std::string& program, std::string_view port) {
@@ -64,6 +92,7 @@ SetupResult<Running> find_sources(const Common& common, std::vector<std::string>
     if (listens) {
         print_notice(common, fmt::format("no ring is in use; listening on {}", usual));
         sources.emplace_back(usual);
+        if (const auto hint = serial_hint(); !hint.empty()) print_notice(common, hint);
     }
     if (port) return running;
     const auto why = fmt::format("no ring is in use, and {}", port.error().text);

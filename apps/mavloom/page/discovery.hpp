@@ -23,6 +23,12 @@ struct Running {
 // there is none.
 [[nodiscard]] std::string ring_hint(const std::string& program, std::string_view port);
 
+// The serial devices of this machine, by the names that stay the same when it restarts: /dev/serial/by-id/... where
+// there are some, else /dev/ttyACM0 and the like.
+[[nodiscard]] std::vector<std::string> serial_ports();
+// How to read them, for people. Empty: there is none.
+[[nodiscard]] std::string serial_hint();
+
 // One line for each: "found the ring px4 of process 4711". `port`: a source on which frames are heard; empty: there is
 // none.
 [[nodiscard]] std::vector<std::string> lines_of(const Running& running, std::string_view port);

@@ -37,6 +37,8 @@ void count(HopLink& link, std::string_view label, std::uint64_t value) {
     else if (label == "bytes_out") link.bytes_out = value;
     else if (label == "up") link.is_up = value != 0;
     else if (label == "refused") link.refused = value;
+    else if (label == "queued_bytes") link.queued_bytes = value;
+    else if (label == "queue_limit_bytes") link.queue_limit_bytes = value;
     else add_loss(link.losses, link_losses, label, value);
 }
 

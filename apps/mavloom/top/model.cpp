@@ -87,6 +87,7 @@ view::Snapshot Model::snapshot(view::Now now, view::Rates rates) {
     shown.title = title_;
     shown.began = began_.value_or(now.mono);
     shown.notices = notices_;
+    shown.hints = hints_;
     shown.routes = routes_;
     if (number_) shown.history = history_.points(*number_);
     return shown;

@@ -33,6 +33,8 @@ public:
     void set_routes(std::vector<view::Route> routes);
     [[nodiscard]] bool wants_routes() const noexcept { return wants_routes_; }
     void add_notice(std::string_view text);
+    // Shown while nothing is heard. Call it before other threads use the model.
+    void set_hints(std::vector<std::string> hints) { hints_ = std::move(hints); }
     // Forgets all that was heard, for a recording that continues elsewhere.
     void restart();
 
@@ -58,7 +60,7 @@ private:
     std::optional<observe::OwnCounts> counts_;
     std::vector<observe::Hop> hops_;
     std::vector<view::Route> routes_;
-    std::vector<std::string> notices_;
+    std::vector<std::string> notices_, hints_;
     std::optional<MonoTime> began_;
     MonoTime tick_at_{};
 };

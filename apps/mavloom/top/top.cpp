@@ -218,6 +218,14 @@ std::string title_of(const std::vector<std::string>& sources) {
     return title;
 }
 
+// For a user who gave no source.
+std::vector<std::string> hints_for(const std::vector<std::string>& sources) {
+    std::vector<std::string> hints{fmt::format("reading {}", fmt::join(sources, ", "))};
+    if (auto serial = serial_hint(); !serial.empty()) hints.push_back(std::move(serial));
+    hints.emplace_back("what else to check: docs/guide/troubleshooting.md");
+    return hints;
+}
+
 Exit show_recording(const TopOptions& options, const dialect::Dialect& dialect, const std::string& path, Model& model) {
     auto playback = Playback::open(path, dialect, options.selection.filter, model);
     if (!playback) return fail(of_input_file(std::move(playback.error())));
@@ -258,11 +266,13 @@ Exit top(const Common& common, TopOptions& options) {
         options.once = true;
     }
     auto& sources = options.receive.sources;
+    const bool are_given = !sources.empty();
     const auto running = find_sources(common, sources);
     if (!running) return fail(running.error());
     const auto endpoints = endpoint::parse_endpoints(sources);
     if (!endpoints) return fail(endpoints.error());
     Model model(*dialect, title_of(sources));
+    if (!are_given) model.set_hints(hints_for(sources));
     if (const auto* const recording = recording_of(*endpoints))
         return show_recording(options, *dialect, recording->path, model);
     return show_live(common, options, *dialect, programs_of(sources, *running), model);

@@ -100,6 +100,8 @@ struct LinkInfo {
     bool up = false;
     Rank rank = Rank::own;  // docs/guide/routing.md, "Trust"
     const LinkCounters* counters = nullptr;
+    // Bytes that wait to be sent, and how many may wait: queue_bytes= of the endpoint.
+    std::size_t queued_bytes = 0, queue_limit_bytes = 0;
     std::string stages{};  // what the stages at its border do; empty: there are none
 };
 

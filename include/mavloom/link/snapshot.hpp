@@ -46,6 +46,7 @@ struct Snapshot {
         std::string name;
         bool up;
         Rank rank;
+        std::size_t queued_bytes, queue_limit_bytes;
         std::vector<NamedCount> counts;
         std::vector<wire::SequenceStats> sources;
         std::string stages{};  // LinkInfo::stages

@@ -25,6 +25,8 @@ struct HopLink {
     std::optional<double> hz_in{}, hz_out{};
     std::vector<NamedCount> losses{};
     std::uint64_t refused = 0;  // frames for a port that nobody listens at
+    // Bytes that wait to be sent, and how many may wait. 0: the program has no such queue, or does not report it.
+    std::uint64_t queued_bytes = 0, queue_limit_bytes = 0;
 };
 
 struct Hop {

@@ -65,7 +65,7 @@ private:
     using Words = std::array<Counter*, paged_counters.size()>;
     struct Row {
         Words words;
-        Counter* up;
+        Counter *up, *queued, *queue_limit;
     };
 
     explicit RingPage(shm::CounterPage page);

@@ -18,6 +18,7 @@
 #include "mavloom/record/tlog_reader.hpp"
 #include "message/filter.hpp"
 #include "message/message.hpp"
+#include "recording/progress.hpp"
 #include "recording/summary.hpp"
 #include "strings.hpp"
 #include "waiting.hpp"
@@ -32,11 +33,13 @@ struct RecordingStats {
 class Recording {
 public:
     Recording(std::string path, const nb::object& dialect, const nb::object& type, const OptionalInteger& system,
-              const OptionalInteger& component)
+              const OptionalInteger& component, bool shows_progress)
         : path_(std::move(path)),
+          shows_progress_(shows_progress),
           origin_(std::make_shared<Origin>(dialect)),
           filter_(make_filter(origin_->dialect(), type, system, component)),
           reader_(value_or_raise(open())) {
+        if (shows_progress_) progress_ = Progress::on_stderr();
         origin_->link_names().add(LinkId{0}, "tlog://" + path_);
     }
 
@@ -59,6 +62,7 @@ public:
     void rewind() {
         const auto lock = lock_without_gil(mutex_);
         value_or_raise(reader().seek(0));
+        progress_.restart();
         batch_.clear();
         delivered_ = 0;
         ended_ = false;
@@ -88,11 +92,12 @@ public:
         const auto lock = lock_without_gil(mutex_);
         if (!reader_) return;
         note_counters();
+        progress_.clear();
         reader_.reset();
         batch_.clear();
     }
 
-    [[nodiscard]] RecordingSummary summary() const { return summary_of(path_, origin_); }
+    [[nodiscard]] RecordingSummary summary() const { return summary_of(path_, origin_, shows_progress_); }
 
     [[nodiscard]] const std::string& path() const noexcept { return path_; }
 
@@ -153,6 +158,7 @@ private:
         batch_.clear();
         delivered_ = 0;
         auto& file = reader();
+        show_progress(file);
         auto stop = std::optional<record::TlogReader::Stop>();
         {
             const WithoutGil outside;
@@ -165,9 +171,18 @@ private:
         }
         using Stop = record::TlogReader::Stop;
         ended_ = stop == Stop::end;
+        if (ended_) progress_.clear();
         if (stop == Stop::failed && batch_.size() == 0) raise(file.error());
         if (ended_ && file.found_no_record()) raise(file.no_record_error());
         return stop != Stop::nothing_yet || batch_.size() != 0;
+    }
+
+    void show_progress(const record::TlogReader& file) {
+        if (!progress_.is_due()) return;
+        const auto part = file.size() == 0
+                              ? std::nullopt
+                              : std::optional(static_cast<double>(file.position()) / static_cast<double>(file.size()));
+        progress_.show({.frames = file.counters().records.value(), .bytes = file.position(), .part = part});
     }
 
     void add(const record::Record& record) {
@@ -176,6 +191,7 @@ private:
     }
 
     const std::string path_;
+    const bool shows_progress_;
     const std::shared_ptr<Origin> origin_;
     const dialect::Filter filter_;
     std::mutex mutex_;
@@ -185,6 +201,7 @@ private:
     std::size_t delivered_ = 0;  // frames of batch_ that were delivered
     bool ended_ = false;
     RecordingStats stats_{};
+    Progress progress_;
 };
 
 }  // namespace
@@ -208,17 +225,19 @@ void bind_recording(nb::module_& module) {
         "Damage is skipped and counted in `stats`. If reading fails in the middle of the file, the\n"
         "messages before the failure are returned first, then the error is raised. Safe from any thread,\n"
         "one at a time. The GIL is free while reading. `close()`, the end of `with`, and the destruction\n"
-        "of the object close the file.")
+        "of the object close the file.\n\n"
+        "With `progress=True`, iteration and `summary()` show on stderr how much is read and how long the\n"
+        "rest will take, if stderr is a terminal.")
         .def(
             "__init__",
             [](Recording* self, const nb::object& path, const nb::object& type, const OptionalInteger& system,
-               const OptionalInteger& component,
-               const nb::object& dialect) { new (self) Recording(path_of(path), dialect, type, system, component); },
+               const OptionalInteger& component, const nb::object& dialect,
+               bool progress) { new (self) Recording(path_of(path), dialect, type, system, component, progress); },
             nb::arg("path"), nb::kw_only(), nb::arg("type") = nb::none(), nb::arg("system") = nb::none(),
-            nb::arg("component") = nb::none(), nb::arg("dialect") = nb::none(),
+            nb::arg("component") = nb::none(), nb::arg("dialect") = nb::none(), nb::arg("progress") = false,
             nb::sig("def __init__(self, path: str | os.PathLike[str], *, type: MessageTypes | None = None, system: int "
                     "| None = None, "
-                    "component: int | None = None, dialect: Dialect | None = None) -> None"))
+                    "component: int | None = None, dialect: Dialect | None = None, progress: bool = False) -> None"))
         .def(
             "recv_match", &Recording::recv_match, nb::arg("condition") = nb::none(), nb::arg("type") = nb::none(),
             nb::arg("blocking") = nb::none(), nb::arg("timeout") = nb::none(), nb::arg("system") = nb::none(),

@@ -12,11 +12,12 @@
 #include "gil.hpp"
 #include "mavloom/base/durations.hpp"
 #include "mavloom/feed/summarize.hpp"
+#include "recording/progress.hpp"
 #include "strings.hpp"
 
 namespace mavloom::python {
 
-RecordingSummary summary_of(const std::string& path, const std::shared_ptr<const Origin>& origin) {
+RecordingSummary summary_of(const std::string& path, const std::shared_ptr<const Origin>& origin, bool shows_progress) {
     constexpr std::uint64_t piece = 16 << 20;  // bytes to read before signals are handled
     auto reader = [&] {
         const WithoutGil outside;
@@ -25,7 +26,12 @@ RecordingSummary summary_of(const std::string& path, const std::shared_ptr<const
     if (!reader) raise(reader.error());
     if (!reader->is_file()) raise({SetupCode::usage, 0, path + " is no regular file, so it can be read only once"});
     observe::Summarizer summarizer(origin->dialect());
+    auto progress = shows_progress ? Progress::on_stderr() : Progress();
     for (;; check_signals()) {
+        if (progress.is_due())
+            progress.show({.frames = reader->counters().records.value(),
+                           .bytes = reader->position(),
+                           .part = static_cast<double>(reader->position()) / static_cast<double>(reader->size())});
         const auto done = [&] {
             const WithoutGil outside;
             return feed::summarize(*reader, summarizer, piece);

@@ -17,7 +17,8 @@ struct RecordingSummary {
     std::uint64_t junk_bytes, damaged_places;
 };
 
-// Reads a whole file without the GIL, and handles signals meanwhile.
-[[nodiscard]] RecordingSummary summary_of(const std::string& path, const std::shared_ptr<const Origin>& origin);
+// Reads a whole file without the GIL, and handles signals meanwhile. With `shows_progress`, shows how far it is.
+[[nodiscard]] RecordingSummary summary_of(const std::string& path, const std::shared_ptr<const Origin>& origin,
+                                          bool shows_progress);
 
 }  // namespace mavloom::python

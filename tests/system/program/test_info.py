@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: MIT
 """mavloom info: the summary of a recording. Expected values come from pymavlink."""
 import collections
+import datetime
+import importlib.util
 import json
 import math
 import os
+import pathlib
 import pty
 import re
 import struct
 import subprocess
 import xml.etree.ElementTree
 
+import lxml.etree
 import pytest
 
 import frames
@@ -225,6 +229,71 @@ def test_tracks_are_the_positions_of_the_vehicle(run, tmp_path):
     assert [" ".join((p[1], p[0], p[2])) for p in (c.split(",") for c in line.text.split())] == points
 
 
+def test_tracks_follow_the_schemas(run, tmp_path):
+    """KML: the OGC's schema. GPX, of which no package has the schema: the order and the ranges that it demands."""
+    gpx, kml = tmp_path / "x.gpx", tmp_path / "x.kml"
+    assert run("info", frames.FLIGHT, SESSION, "--gpx", gpx, "--kml", kml).status == 0
+    package = importlib.util.find_spec("fastkml")
+    assert package, "fastkml is missing: ./run test installs it"
+    schema = lxml.etree.XMLSchema(lxml.etree.parse(pathlib.Path(package.origin).with_name("schema") / "ogckml22.xsd"))
+    schema.assertValid(lxml.etree.parse(kml))
+
+    space = "{http://www.topografix.com/GPX/1/1}"
+    root = xml.etree.ElementTree.parse(gpx).getroot()
+    assert root.tag == space + "gpx" and set(root.attrib) == {"version", "creator"} and root.get("version") == "1.1"
+    assert len(root) == 2 and {track.tag for track in root} == {space + "trk"}
+    for track in root:
+        assert [child.tag for child in track][0] == space + "name"
+        assert {child.tag for child in list(track)[1:]} == {space + "trkseg"}
+        for point in track.iter(space + "trkpt"):
+            assert set(point.attrib) == {"lat", "lon"}
+            assert [child.tag for child in point] == [space + "ele", space + "time"]
+            assert -90 <= float(point.get("lat")) <= 90 and -180 <= float(point.get("lon")) < 180
+            datetime.datetime.fromisoformat(point.findtext(space + "time").replace("Z", "+00:00"))
+
+
+def with_later_times(path, copies, folder):
+    """The recording again and again, each time as if it was made after the one before."""
+    whole, records = path.read_bytes(), frames.read_tlog(path)
+    places, at = [], 0
+    for _, frame in records:
+        places.append(at)
+        at += 8 + len(frame)
+    span = records[-1][0] - records[0][0] + 20_000
+    big = folder / "big.tlog"
+    with big.open("wb") as out:
+        for copy in range(copies):
+            bytes_of = bytearray(whole)
+            for place, (time_us, _) in zip(places, records):
+                struct.pack_into(">Q", bytes_of, place, time_us + copy * span)
+            out.write(bytes_of)
+    return big
+
+
+@pytest.mark.long
+@pytest.mark.unsanitized
+def test_two_gigabytes_take_three_seconds_and_little_memory(program, tmp_path):
+    """Processor time of one thread: on a machine with nothing else to do, it is the time on the clock."""
+    big = with_later_times(frames.FLIGHT, 928, tmp_path)
+    assert big.stat().st_size > 2_000_000_000
+    process = subprocess.Popen([program, "info", big, "--json"], stdout=subprocess.PIPE)
+    told = json.loads(process.stdout.read())
+    _, status, used = os.wait4(process.pid, 0)
+    big.unlink()
+    assert (status, told["frames"], told["junk_bytes"]) == (0, 928 * 40087, 0)
+    assert used.ru_utime + used.ru_stime < 3 and used.ru_maxrss < 100_000, used
+
+
+@pytest.mark.long
+@pytest.mark.unsanitized
+def test_two_gigabytes_of_zeros_are_refused_in_reasonable_time(run, tmp_path):
+    zeros = tmp_path / "zeros.tlog"
+    with zeros.open("wb") as file:
+        file.truncate(2 << 30)
+    done = run("info", zeros, timeout=60)
+    assert done.status == 3 and "none of its 2147483648 bytes begins a MAVLink record" in done.stderr, done
+
+
 def test_a_track_file_replaces_nothing(run, tmp_path):
     log = tmp_path / "x.tlog"
     log.write_bytes(frames.FLIGHT.read_bytes())
@@ -253,7 +322,7 @@ def test_a_pipe_is_read_to_its_end_and_a_terminal_sees_the_progress(program, tmp
     with path.open("wb") as pipe:
         pipe.write(frames.FLIGHT.read_bytes())
         pipe.flush()
-        while b" MB" not in seen:
+        while b" MB" not in seen and b" kB" not in seen:
             seen += os.read(ours, 1000)
     printed, _ = process.communicate(timeout=harness.DEFAULT_TIMEOUT_S)
     with pytest.raises(OSError):  # the end of a terminal
@@ -262,7 +331,7 @@ def test_a_pipe_is_read_to_its_end_and_a_terminal_sees_the_progress(program, tmp
     os.close(ours)
 
     assert json.loads(printed)["frames"] == 40087
-    assert re.fullmatch(rb"\r\d+ MB.*\r *\r", seen, re.DOTALL)
+    assert re.fullmatch(rb"\r[\d.]+ [kM]B.*\r *\r", seen, re.DOTALL)
 
 
 def test_ctrl_c_ends_the_wait_for_a_pipe(spawn, tmp_path):

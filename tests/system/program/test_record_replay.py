@@ -1,12 +1,17 @@
 # SPDX-License-Identifier: MIT
 """mavloom record and replay: what is recorded is what came; what is replayed is what was recorded, at its pace."""
 import contextlib
+import fcntl
 import json
 import os
+import pty
 import re
 import shutil
 import signal
 import socket
+import struct
+import subprocess
+import termios
 import time
 
 import pytest
@@ -552,3 +557,64 @@ def test_wrong_use(run, arguments, said):
 
     assert done.status == 2
     assert said in done.stderr
+
+
+# ---- progress --------------------------------------------------------------------------------------------------------
+
+def read_terminal(master):
+    """All that was written to the terminal, until its other end is closed."""
+    seen = b""
+    with contextlib.suppress(OSError):
+        while chunk := os.read(master, 4096):
+            seen += chunk
+    os.close(master)
+    return seen.decode()
+
+
+def on_terminal(program, *arguments, seconds=1.5):
+    """Returns the text on stderr, a terminal of 100 columns, until a signal ends the command."""
+    master, slave = pty.openpty()
+    fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 100, 0, 0))
+    process = subprocess.Popen([program, *map(str, arguments)], stderr=slave, stdout=subprocess.DEVNULL,
+                               env=harness.environment())
+    os.close(slave)
+    with contextlib.suppress(subprocess.TimeoutExpired):
+        process.wait(seconds)
+    process.send_signal(signal.SIGINT)
+    seen = read_terminal(master)
+    process.wait(harness.DEFAULT_TIMEOUT_S)
+    return seen
+
+
+# The end is known: per cent, and the time left once a thousandth is done.
+LINE = r"\[#*\.*\] +\d+ %  \d+ frames?  [\d.]+ k?B  00:0\d  \d+ frames/s  \d\d:\d\d left"
+
+
+@pytest.mark.parametrize("command", ["replay", "relay", "record"])
+def test_progress_is_shown_on_a_terminal_and_leaves_no_trace(program, udp_port, tmp_path, command):
+    end = ("-o", tmp_path / "out.tlog") if command == "record" else ("--to", f"udpout://127.0.0.1:{udp_port()}")
+    more = ("--no-wait",) if command == "replay" else ()
+    seen = on_terminal(program, command, f"{frames.FLIGHT}?speed=1", *end, *more)
+    lines = [line.strip() for line in re.findall(r"\r(\[[^\r\n]*)", seen)]
+    assert lines and any(re.fullmatch(LINE, line) for line in lines), seen
+    assert re.search(r"\r +\r(?!\[)", seen), "the last line is erased"
+    assert run_quiet(program, command, *end, *more) == ""
+
+
+def run_quiet(program, command, *more):
+    return on_terminal(program, command, f"{frames.FLIGHT}?speed=1", "-q", *more, seconds=0.8)
+
+
+@pytest.mark.parametrize("limit, shown", [((), None), (("--for", "9s"), r"\[#*\.*\] +\d+ %.*0[0-9]:\d\d left"),
+                                          (("--count", "900"), r"\[#*\.*\] +\d+ %")])
+def test_a_live_recording_knows_its_end_by_its_limit(program, spawn, udp_port, tmp_path, limit, shown):
+    port = udp_port()
+    spawn("sim", "--to", f"udpout://127.0.0.1:{port}", "--name", f"progress-{port}")
+    seen = on_terminal(program, "record", f"udpin://127.0.0.1:{port}", "-o", tmp_path / "live.tlog", *limit, seconds=3)
+    assert re.search(r"\d+ frames  [\d.]+ k?B  00:0\d  \d+ frames/s", seen), seen
+    assert bool(re.search(r"\d %", seen)) == bool(shown) and (shown is None or re.search(shown, seen)), seen
+
+
+def test_nothing_is_shown_off_a_terminal(run, spawn, udp_port):
+    replay = spawn("replay", frames.FLIGHT, "--to", f"udpout://127.0.0.1:{udp_port()}", "--no-wait", "--for", "1s")
+    assert "\r" not in replay.wait().stderr

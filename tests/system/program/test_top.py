@@ -60,7 +60,7 @@ def test_a_message_gets_another_rate_and_routes_are_shown(tmux, spawn, run, udp_
 @pytest.mark.parametrize("number", ["TERM", "HUP"])
 def test_a_signal_gives_the_terminal_back(tmux, spawn, number):
     terminal = tmux(frames.FLIGHT)
-    terminal.wait_for(r"HEARTBEAT +\d")
+    terminal.wait_for(r"ATTITUDE +\d")
     pane = terminal.call("display-message", "-p", "#{pane_pid}").strip()
     subprocess.run(["pkill", f"-{number}", "-P", pane, "mavloom"], check=True)
     terminal.wait_for(r"^ended with \d+\n *icanon")
@@ -77,7 +77,7 @@ def test_each_size_shows_what_fits(tmux, columns, lines):
 
 def test_a_terminal_that_changes_its_size(tmux):
     terminal = tmux(frames.FLIGHT, columns=120, lines=30)
-    terminal.wait_for(r"HEARTBEAT +\d")
+    terminal.wait_for(r"ATTITUDE +\d")
     terminal.call("resize-window", "-x", "50", "-y", "12")
     terminal.wait_for(r"ATTITUDE +\d")
     assert max(map(len, terminal.shown().splitlines())) <= 50
@@ -85,7 +85,7 @@ def test_a_terminal_that_changes_its_size(tmux):
 
 def test_a_recording_is_halted_and_moved_in(tmux):
     terminal = tmux(frames.FLIGHT)
-    terminal.wait_for(r"HEARTBEAT +\d")
+    terminal.wait_for(r"ATTITUDE +\d")
     terminal.type("$")
     terminal.wait_for(r"1/1 quadrotor")
     terminal.type("0")

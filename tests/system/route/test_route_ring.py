@@ -904,3 +904,35 @@ def test_a_name_that_another_user_took_keeps_no_router_down(ring, program, tmp_p
 
     assert done.returncode == 0 and said in done.stderr, done
     assert left == 12344
+
+
+def test_the_page_shows_how_full_the_queue_of_a_stalled_client_is(spawn, run, udp_port, tcp_port, ring):
+    """And that it is empty once the client has read all, although no frame arrives any more."""
+    ports = udp_port(), tcp_port()
+    router = spawn("route", f"udpin://127.0.0.1:{ports[0]}", "--ring", ring,
+                   f"tcpin://127.0.0.1:{ports[1]}?queue_bytes=200000&queue_age=60s")
+
+    def queue():
+        lines = [json.loads(line) for line in run("stat", ring, "--json").lines]
+        return [(line["queued_bytes"], line["queue_limit_bytes"]) for line in lines
+                if line["kind"] == "link" and line["link"].startswith("tcpin")]
+    with socket.socket() as client, socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as vehicle:
+        client.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        harness.wait_for(lambda: client.connect_ex(("127.0.0.1", ports[1])) in (0, 106), what="the connection")
+        router.wait_output(r"tcpin.*: up")
+        frame = make(mavlink.MAVLink_statustext_message(6, b"x" * 50), (1, 1))
+
+        def fill():
+            for _ in range(500):
+                vehicle.sendto(frame * 20, ("127.0.0.1", ports[0]))
+            return queue()[0][0] > 100_000
+        harness.wait_for(fill, what="a queue that is half full")
+        assert queue()[0][0] <= queue()[0][1] == 200_000
+        client.setblocking(False)
+
+        def empty():
+            with contextlib.suppress(BlockingIOError):
+                while client.recv(1 << 16):
+                    pass
+            return queue()[0][0] == 0
+        harness.wait_for(empty, what="an empty queue")

@@ -174,7 +174,67 @@ def test_examples_of_the_help_of_a_part(run, folder, command, part):
         assert is_good(done, words), done
 
 
+def headings_of(page):
+    """(level, text) of the headings, without those in code."""
+    text = re.sub(r"```.*?```", "", page.read_text(), flags=re.DOTALL)
+    return [(len(marks), words) for marks, words in re.findall(r"^(#+) (.*)$", text, re.MULTILINE)]
+
+
+def anchors_of(page):
+    """As GitHub makes them: small letters, without punctuation, with hyphens for blanks."""
+    return {re.sub(r"[^\w -]", "", words.lower()).replace(" ", "-") for _, words in headings_of(page)}
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_links_lead_somewhere(page):
-    for target in re.findall(r"\]\(([^)#:]+)\)", page.read_text()):
-        assert (page.parent / target).exists(), target
+    text = re.sub(r"```.*?```", "", page.read_text(), flags=re.DOTALL)
+    for target, anchor in re.findall(r"\]\(([^)#:\s]*)(?:#([^)\s]+))?\)", text):
+        there = (page.parent / target).resolve() if target else page
+        assert there.exists(), target
+        assert not anchor or there.suffix != ".md" or anchor in anchors_of(there), f"{target}#{anchor}"
+
+
+# The questions of new users, with the words of a heading that answers each.
+QUESTIONS = {
+    "Nothing arrives. Why?": "nothing arrives",
+    "QGroundControl shows a loss of 78 %. Is that true?": "high loss, but nothing is lost",
+    "The parameters stay incomplete. What can I do?": "parameters stay incomplete",
+    "Bytes arrive on the serial port, but no messages. Is the baud rate wrong?": "wrong baud rate",
+    "Two vehicles, or two programs, have the same id. What happens?": "two senders with one id",
+    "How do I install it without a compiler?": "without a compiler",
+    "How do I connect two ground stations?": "two ground stations",
+    "How do I record a flight and replay it?": "record a flight and replay it",
+    "How do I use it from Python?": "the python package",
+    "How do I see the telemetry in a browser?": "in browsers",
+}
+
+
+def pages_linked_from(page):
+    targets = re.findall(r"\]\(([^)#:\s]+\.md)(?:#[^)]*)?\)", page.read_text())
+    return {(page.parent / target).resolve() for target in targets}
+
+
+def section_of(page, heading):
+    """The text below a heading, up to the next one of its level or above."""
+    level = next(level for level, words in headings_of(page) if words == heading)
+    text = page.read_text().split(f"{'#' * level} {heading}\n", 1)[1]
+    return re.split(rf"^#{{1,{level}}} ", re.sub(r"^# .*$", "", text, flags=re.MULTILINE) if level > 1 else text, 1,
+                    re.MULTILINE)[0]
+
+
+@pytest.mark.parametrize("words", QUESTIONS.values(), ids=QUESTIONS)
+def test_ten_questions_of_new_users_are_answered_one_click_from_the_first_page(words):
+    answers = [(page, heading) for page in pages_linked_from(harness.ROOT / "README.md")
+               for _, heading in headings_of(page) if words in heading.lower()]
+    assert answers, f"no heading has the words {words!r}"
+    for page, heading in answers:
+        section = section_of(page, heading)
+        assert len(section.split()) > 40 and re.search(r"mavloom \w+|import mavloom|pip install", section), heading
+
+
+def test_the_first_page_is_short_and_shows_pictures_before_commands():
+    text = (harness.ROOT / "README.md").read_text()
+    assert len(text.split()) <= 920, "half of what it had in version 0.1"
+    page, top, commands = (text.index(part) for part in ("page-overview.png", "top.png", "```sh"))
+    assert page < commands and top < commands
+    assert len(re.findall(r"^\./run ", text[commands:].split("```")[1], re.MULTILINE)) == 2

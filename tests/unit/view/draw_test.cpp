@@ -138,6 +138,37 @@ TEST_F(DrawTest, TheRoutesOfARouter) {
     EXPECT_THAT(all, HasSubstr("          other           it does not answer"));
 }
 
+TEST_F(DrawTest, ALinkShowsHowFullItsQueueIs) {
+    auto shown = taken();
+    const observe::HopLink slow{
+        .name = "udpout://192.168.1.20:14550", .frames_in = 1, .queued_bytes = 800'000, .queue_limit_bytes = 1 << 20};
+    const observe::HopLink idle{.name = "tablet", .queue_limit_bytes = 1 << 20};
+    shown->hops = {{.name = "router", .kind = observe::Hop::Kind::router, .links = {slow, idle}}};
+    type(U"3");
+    EXPECT_EQ(draw(*shown, state, {80, 9}, Glyphs::ascii).text(),
+              " mavloom top                                                    11.0 Hz 218 B/s\n"
+              " no alarm\n"
+              " 1 Messages  2 Vehicles  3 Links  4 Routes  5 Alarms\n"
+              " LINK                                    HZ IN  HZ OUT       IN      OUT  QUEUE\n"
+              " router router                               -       -        0        0\n"
+              "   udpout://192.168.1.20:14550               -       -        1        0   77 %\n"
+              "   tablet                                    -       -        0        0    0 %\n"
+              "\n"
+              " tab next view  space pause  ? help  q quit\n");
+}
+
+TEST_F(DrawTest, WhileNothingIsHeardHintsAreShown) {
+    auto shown = taken();
+    shown->hints = {"reading udpin://0.0.0.0:14550", "a vehicle may be at /dev/ttyACM0: to read it, name the source"};
+    EXPECT_THAT(draw(*shown, state, {40, 10}, Glyphs::ascii).text(), Not(HasSubstr("a vehicle may be at")));
+    shown->frames = 0;
+    shown->rows.clear();
+    EXPECT_THAT(draw(*shown, state, {40, 10}, Glyphs::ascii).text(), HasSubstr(" nothing to show\n"
+                                                                               " reading udpin://0.0.0.0:14550\n"
+                                                                               " a vehicle may be at /dev/ttyACM0: to\n"
+                                                                               "   read it, name the source\n"));
+}
+
 TEST_F(DrawTest, QuitIsTheEffectOfQ) { EXPECT_EQ(type(U"q"), Effect::quit); }
 
 // Under the sanitizers.
