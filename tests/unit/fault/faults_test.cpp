@@ -14,10 +14,8 @@ namespace {
 using namespace std::chrono_literals;
 using namespace link::testing;
 using link::LinkCounters;
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::SizeIs;
 
 Plan plan(const std::string& out, std::uint64_t seed = 1) {
     auto faults = endpoint::parse_faults(out);
@@ -204,14 +202,14 @@ TEST(Injected, ANarrowLineCarriesItsRateAndCountsTheRest) {
     const LinkCounters& c = line.counters;
     EXPECT_EQ(c.frames_in.value() + c.fault_queue.value(), many);
     EXPECT_EQ(c.lost.value() + at_the_ends(line), c.fault_queue.value());
-    EXPECT_NEAR(static_cast<double>(c.frames_in.value()), many / 2 + 20, 2) << "half of it, and the full queue";
+    EXPECT_NEAR(static_cast<double>(c.frames_in.value()), 0.5 * many + 20, 2) << "half of it, and the full queue";
     for (std::size_t i = 1; i < line.times.size(); ++i) ASSERT_GE(line.times[i] - line.times[i - 1], 20ms);
 }
 
 TEST(Injected, TheOrderOfFaultsIsThatOfNetem) {
     Line line(plan("rate:1050/420,loss:0.5"));  // as typed, the queue would come first
     line.send(many);
-    EXPECT_NEAR(static_cast<double>(line.counters.fault_lost.value()), many / 2, 5 * 71);
+    EXPECT_NEAR(static_cast<double>(line.counters.fault_lost.value()), 0.5 * many, 5 * 71);
     EXPECT_LT(line.counters.fault_queue.value(), many / 20) << "what is lost does not load the line";
 }
 

@@ -18,10 +18,7 @@ namespace mavloom::fault::detail {
 namespace {
 
 using namespace std::chrono_literals;
-using link::testing::attitude;
-using link::testing::Bytes;
-using link::testing::heartbeat;
-using link::testing::operator+;
+using namespace link::testing;
 using ::testing::ElementsAre;
 using ::testing::ElementsAreArray;
 using ::testing::IsEmpty;
@@ -61,6 +58,7 @@ struct Trial {
     }
     [[nodiscard]] std::vector<std::uint32_t> numbers() const {
         std::vector<std::uint32_t> all;
+        all.reserve(next.pieces.size());
         for (const Bytes& piece : next.pieces) all.push_back(number_of(piece));
         return all;
     }
@@ -266,7 +264,7 @@ TEST(CutIntoFrames, MakesAPieceOfEachFrameHoweverTheyAreRead) {
     }
     for (const std::size_t read : {1u, 7u, 30u, 5000u}) {
         Trial run;
-        CutIntoFrames stage(link::testing::table());
+        CutIntoFrames stage(table());
         for (std::size_t at = 0; at < stream.size(); at += read)
             run.take(stage, {stream.begin() + static_cast<std::ptrdiff_t>(at),
                              stream.begin() + static_cast<std::ptrdiff_t>(std::min(at + read, stream.size()))});
@@ -282,7 +280,7 @@ TEST(CutIntoFrames, KeepsNoByteForItself) {
     const Bytes stream = Bytes{1, 2, 3} + heartbeat(0) + damaged + Bytes{0xFD, 0xFE} + heartbeat(4) + half;
     for (const std::size_t read : {1u, 5u, 1000u}) {
         Trial run;
-        CutIntoFrames stage(link::testing::table());
+        CutIntoFrames stage(table());
         for (std::size_t at = 0; at < stream.size(); at += read)
             run.take(stage, {stream.begin() + static_cast<std::ptrdiff_t>(at),
                              stream.begin() + static_cast<std::ptrdiff_t>(std::min(at + read, stream.size()))});
