@@ -218,10 +218,11 @@ std::string title_of(const std::vector<std::string>& sources) {
     return title;
 }
 
-// For a user who gave no source.
+// For a user who gave no source. A small screen has no room for the last ones.
 std::vector<std::string> hints_for(const std::vector<std::string>& sources) {
-    std::vector<std::string> hints{fmt::format("reading {}", fmt::join(sources, ", "))};
+    std::vector<std::string> hints;
     if (auto serial = serial_hint(); !serial.empty()) hints.push_back(std::move(serial));
+    hints.push_back(fmt::format("reading {}", fmt::join(sources, ", ")));
     hints.emplace_back("what else to check: docs/guide/troubleshooting.md");
     return hints;
 }

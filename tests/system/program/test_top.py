@@ -105,3 +105,45 @@ def test_once_prints_the_views(run):
 def test_no_terminal_prints_once_and_states_why(run):
     done = run("top", frames.FLIGHT, env={"TERM": "dumb"})
     assert done.status == 0 and "as with --once" in done.stderr and "ATTITUDE" in done.stdout
+
+
+# A machine of its own, as far as top looks: no ring, free ports, and these devices.
+ALONE = """
+mount -t tmpfs none /dev && mkdir /dev/shm && mknod -m 666 /dev/null c 1 3 && mknod -m 666 /dev/urandom c 1 9
+touch /dev/ttyUSB0 /dev/ttyACM1 /dev/ttyS0
+"""
+
+
+@pytest.fixture
+def alone(tmp_path):
+    """A script in which `more` runs as on a machine without rings and with two serial ports."""
+    def script(*commands):
+        path = tmp_path / f"alone{len(commands)}.sh"
+        path.write_text(ALONE + "\n".join(commands) + "\n")
+        return ["unshare", "-mn", "sh", "-e", str(path)]
+    if os.geteuid() != 0 or subprocess.run(["unshare", "-mn", "true"], capture_output=True, check=False).returncode:
+        pytest.skip("this needs root and namespaces of its own")
+    return script
+
+
+def test_without_sources_and_rings_serial_ports_are_named(alone, program, tmp_path):
+    done = subprocess.run(alone(f"{program} top --once --for 200ms", "mkdir -p /dev/serial/by-id",
+                                "touch /dev/serial/by-id/usb-Pixhawk-if00", f"{program} doctor --for 200ms || true"),
+                          capture_output=True, text=True, check=True, timeout=harness.DEFAULT_TIMEOUT_S,
+                          env=harness.environment({"MAVLOOM_RUN": str(tmp_path)}))
+    hints = [line for line in done.stderr.splitlines() if "a vehicle may be at" in line]
+    assert hints == ["mavloom: a vehicle may be at /dev/ttyACM1, /dev/ttyUSB0: to read it, name the source "
+                     "'serial:///dev/ttyACM1?baud=57600'",
+                     "mavloom: a vehicle may be at /dev/serial/by-id/usb-Pixhawk-if00: to read it, name the source "
+                     "'serial:///dev/serial/by-id/usb-Pixhawk-if00?baud=57600'"], done
+
+
+@pytest.mark.parametrize("columns, lines", [(100, 26), (80, 24), (40, 10)])
+def test_an_empty_screen_names_the_serial_ports(alone, program, tmp_path, columns, lines):
+    with terminals.opened(tmp_path, *alone(f"MAVLOOM_RUN={tmp_path} exec {program} top")[:2]) as start:
+        terminal = start(*alone(f"MAVLOOM_RUN={tmp_path} exec {program} top")[2:], columns=columns, lines=lines)
+        terminal.wait_for(r"nothing to show")
+        shown = re.sub(r"\s+", " ", terminal.shown())
+        assert "a vehicle may be at /dev/ttyACM1, /dev/ttyUSB0: to read it, name the source" in shown, terminal.shown()
+        terminal.type("q")
+        terminal.wait_for("^ended with 0")
