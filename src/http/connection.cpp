@@ -101,7 +101,8 @@ Connection::Connection(Tcp::socket socket, std::shared_ptr<ServerState> server)
 void Connection::turn_away(Tcp::socket& socket) {
     error_code error;
     socket.non_blocking(true, error);
-    socket.write_some(asio::buffer(std::string_view("HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\n\r\n")),
+    socket.write_some(asio::buffer(std::string_view(
+                          "HTTP/1.1 503 Service Unavailable\r\nRetry-After: 1\r\nContent-Length: 0\r\n\r\n")),
                       error);
 }
 

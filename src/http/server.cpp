@@ -23,27 +23,35 @@ constexpr std::size_t max_with_few_descriptors = 4;
 
 using StatePointer = std::shared_ptr<ServerState>;
 
-bool hang_up_idlest(ServerState& server) {
+std::shared_ptr<Connection> find_idlest(const ServerState& server) {
     std::shared_ptr<Connection> idlest;
     for (const auto& weak : server.connections)
         if (auto one = weak.lock(); idlest == nullptr || one->idle_since() < idlest->idle_since())
             idlest = std::move(one);
-    if (idlest == nullptr || idlest->is_busy()) return false;
-    idlest->hang_up();
-    std::erase_if(server.connections, [&](const auto& one) { return one.lock() == idlest; });
+    return idlest;
+}
+
+void displace(ServerState& server, const std::shared_ptr<Connection>& one) {
+    one->hang_up();
+    std::erase_if(server.connections, [&](const auto& other) { return other.lock() == one; });
     server.counters.add(Count::displaced);
-    return true;
 }
 
 // Disconnects the clients that have been idle longest, if there are too many. Returns false if all others await
 // answers.
 bool make_room(ServerState& server, int any_descriptor) {
-    const auto most = net::few_descriptors_left(any_descriptor)
-                          ? std::min(max_with_few_descriptors, server.options.limits.clients)
-                          : server.options.limits.clients;
+    const auto& limits = server.options.limits;
+    const bool has_few = net::few_descriptors_left(any_descriptor);
+    const auto most = has_few ? std::min(max_with_few_descriptors, limits.clients) : limits.clients;
+    const auto most_in_grace = has_few ? most : limits.clients + limits.web_sockets;
     std::erase_if(server.connections, [](const auto& one) { return one.expired(); });
-    while (server.connections.size() >= most)
-        if (!hang_up_idlest(server)) return false;
+    while (server.connections.size() >= most) {
+        const auto idlest = find_idlest(server);
+        if (idlest == nullptr || idlest->is_busy()) return false;
+        const bool is_in_grace = std::chrono::steady_clock::now() - idlest->idle_since() < limits.grace;
+        if (is_in_grace && server.connections.size() < most_in_grace) return true;
+        displace(server, idlest);
+    }
     return true;
 }
 

@@ -30,7 +30,7 @@ consteval LossName link_loss(std::string_view name) {
 inline constexpr std::array link_losses{link_loss("lost"),        link_loss("crc_error"), link_loss("bad_signature"),
                                         link_loss("queue_bytes"), link_loss("queue_age"), link_loss("frames_not_sent")};
 
-// Without losses: those of the receiver are in `loss_counts`, also of links that are gone.
+// Without losses: the receiver has its own numbers.
 [[nodiscard]] observe::HopLink hop_link_of(const feed::Receiver::OfSource& source);
 
 // A simulator's page counts vehicles.

@@ -3,12 +3,23 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "frames/traffic_report.hpp"
 #include "page/page_hop.hpp"
 
 namespace mavloom::app {
+
+static constexpr std::string_view lost_help = "frames that were sent, by their sequence numbers, and did not arrive";
+
+// Of all senders of the link. A ring has no link of its own: what its frames' links lost was lost before it.
+static std::uint64_t lost_on(LinkId link, const std::vector<feed::ReceivedLoss>& losses) {
+    if (link == LinkId{}) return 0;
+    std::uint64_t lost = 0;
+    for (const auto& loss : losses) lost += loss.link == link ? loss.lost : 0;
+    return lost;
+}
 
 void Serving::run() {
     while (going_ && receiver_.wait()) {
@@ -40,12 +51,17 @@ void Serving::note_counts() {
     for (const auto& loss : counts.losses)
         own.on_links.push_back({loss.link, std::string(receiver_.name_of(loss.link)), loss.source, loss.received,
                                 loss.lost, loss.late, loss.duplicate, loss.resync});
-    own.losses.push_back({"lost", counts.lost, "frames that were sent, by their sequence numbers, and did not arrive"});
     own.links.reserve(counts.sources.size());
+    std::uint64_t lost = counts.lost;
     for (const auto& source : counts.sources) {
-        own.links.push_back(hop_link_of(source));
+        auto& link = own.links.emplace_back(hop_link_of(source));
+        if (const auto its = lost_on(source.link, counts.losses); its != 0) {
+            link.losses.push_back({"lost", its, std::string(lost_help)});
+            lost -= std::min(lost, its);
+        }
         if (source.has_ended) audience_.note_end(source.link);
     }
+    own.losses.push_back({"lost", lost, std::string(lost_help)});  // on links that are gone
     audience_.note_counts(std::move(own));
 }
 

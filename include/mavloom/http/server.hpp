@@ -34,7 +34,10 @@ struct Access {
 };
 
 struct Limits {
-    std::size_t clients = 64;       // HTTP connections; a newcomer replaces the one that has been idle longest
+    std::size_t clients = 64;  // HTTP connections; a newcomer replaces the one that has been idle longest
+    // Many clients may connect at the same instant. One that has been idle for less than this is replaced only if there
+    // are `clients` + `web_sockets` connections.
+    std::chrono::milliseconds grace{1000};
     std::size_t web_sockets = 256;  // more are turned away (503); those that are closing do not count
     std::size_t header_bytes = 8192;
     std::size_t body_bytes = 0;  // no handler takes a body

@@ -36,6 +36,9 @@ std::optional<std::string> instance_of(const observe::LatestRow& row) {
 }
 
 TrafficLine line_of(const observe::LatestRow& row, const Channel* channel, bool has_ended, ReportTime now) {
+    const auto age = now.mono - row.heard;
+    const auto silent_after = has_ended ? std::nullopt : row.silent_after();
+    const bool is_silent = silent_after && age > *silent_after;
     return {.topic = topic_of(row, channel),
             .link = row.link->name,
             .name = row.message == nullptr ? std::string_view() : row.message->name,
@@ -44,13 +47,13 @@ TrafficLine line_of(const observe::LatestRow& row, const Channel* channel, bool 
             .id = row.traffic.id,
             .count = row.traffic.count,
             .bytes = row.traffic.bytes,
-            .hz = row.traffic.recent_rate_hz(now.wall),
+            .hz = is_silent ? 0 : row.traffic.recent_rate_hz(now.wall),
             .share = row.share(),
             .gap_min = row.traffic.shortest_gap,
             .gap_max = row.traffic.longest_gap,
             .jitter = row.jitter,
-            .age = now.mono - row.heard,
-            .silent_after = has_ended ? std::nullopt : row.silent_after()};
+            .age = age,
+            .silent_after = silent_after};
 }
 
 ReportTime time_now() { return {wall_now(), mono_now()}; }

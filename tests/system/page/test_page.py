@@ -154,6 +154,45 @@ def test_a_phone_shows_names(page, server):
     assert ring[1] >= -ring[0], "the ring around the focus does not touch the name"
 
 
+def test_a_phone_shows_the_state_of_each_of_many_vehicles(page):
+    with Server() as alone:
+        for number in range(1, 13):
+            alone.send_vehicle((number, 1))
+        page.set_viewport_size({"width": 360, "height": 740})
+        page.goto(alone.url())
+        page.get_by_role("table", name="Vehicles").get_by_role("button", name="7/1").click()
+        panel = page.get_by_role("article")
+        panel.get_by_text("ARMED").wait_for()
+        shown = panel.inner_text()
+    assert all(part in shown for part in ("7/1", "3D", "Satellites", "Latitude")), shown
+    assert page.evaluate("document.documentElement.scrollWidth") == 360
+
+
+@pytest.mark.parametrize("width", [360, 1280])
+def test_a_wrong_formula_in_the_address_is_shown_inside_its_plot(page, server, width):
+    page.set_viewport_size({"width": width, "height": 740})
+    page.goto(server.url("#plots?plot=/1/1/ATTITUDE~foo("))
+    alert = page.get_by_role("alert")
+    alert.get_by_text("at 1: ").wait_for()
+    assert alert.locator("mark").inner_text() == "f"
+    card, text = page.locator(".plot").bounding_box(), alert.bounding_box()
+    assert text["x"] + text["width"] <= card["x"] + card["width"] <= width
+
+
+def test_the_menu_of_columns_closes(page, server):
+    page.goto(server.url("#messages"))
+    menu = page.locator("details.chooser")
+    opener = menu.locator("summary")
+    opener.click()
+    page.keyboard.press("Escape")
+    page.locator("details.chooser:not([open]) > summary:focus").wait_for()
+    opener.click()
+    menu.get_by_label("Bytes").check()
+    assert menu.get_attribute("open") is not None
+    page.locator("tbody").click()
+    page.locator("details.chooser:not([open])").wait_for(state="attached")
+
+
 def test_text_from_outside_stays_text(page, server):
     page.goto(server.url("#messages?open=/1/1/STATUSTEXT"))
     page.locator("aside").get_by_text(HTML).wait_for()

@@ -197,6 +197,7 @@ TEST_F(HttpServer, AClientThatReadsNothingTakesNoMoreMemoryAndIsDisconnected) {
 TEST_F(HttpServer, AThousandConnectionsDisplaceEachOther) {
     auto options = greeter();
     options.limits.clients = 8;
+    options.limits.grace = {};
     serve(std::move(options));
     rlimit limit{};
     ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &limit), 0);
@@ -208,6 +209,33 @@ TEST_F(HttpServer, AThousandConnectionsDisplaceEachOther) {
     EXPECT_EQ(count(Count::connections), 1001u);
     EXPECT_EQ(count(Count::displaced), 1001u - 8u);
     EXPECT_EQ(count(Count::turned_away), 0u);
+}
+
+// They first connect, and then send their requests.
+TEST_F(HttpServer, ClientsThatConnectAtTheSameInstantAreAnswered) {
+    auto options = greeter();
+    options.limits.clients = 4;
+    options.limits.web_sockets = 16;
+    options.limits.grace = std::chrono::hours(1);
+    serve(std::move(options));
+    std::vector<RawClient> clients;
+    for (int i = 0; i < 20; ++i) clients.push_back(client());
+    for (auto& one : clients) one.send(close_hello);
+    for (auto& one : clients) EXPECT_THAT(one.read_until("hello you"), StartsWith("HTTP/1.1 200"));
+    EXPECT_EQ(count(Count::displaced), 0u);
+}
+
+// A client that connects and sends nothing keeps no other one out, however short a time ago it came.
+TEST_F(HttpServer, NewConnectionsBeyondBothLimitsDisplaceEachOther) {
+    auto options = greeter();
+    options.limits.clients = 4;
+    options.limits.web_sockets = 4;
+    options.limits.grace = std::chrono::hours(1);
+    serve(std::move(options));
+    std::vector<RawClient> clients;
+    for (int i = 0; i < 20; ++i) clients.push_back(client());
+    EXPECT_THAT(answer(std::string(close_hello)), EndsWith("hello you"));
+    EXPECT_EQ(count(Count::displaced), 21u - 8u);
 }
 
 // Handlers may answer later, on any thread. Clients that wait for one are not displaced.

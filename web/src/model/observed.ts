@@ -148,11 +148,12 @@ function remember(hop: Hop): void {
     if (history.lost.length > HISTORY) history.lost.shift();
 }
 
-// Frames lost in the last ten seconds; 0 after a pause, when that is not known.
-export function lostLately(hop: Hop): number {
-    const since = performance.now() / 1000 - 10;
-    const before = histories.get(hop.name)?.lost.find((one) => one.at >= since);
-    return before ? Math.max(0, lossOf(hop) - before.total) : 0;
+// Frames lost in the last ten seconds, or in those that the page has seen, if it was opened or was hidden since.
+export function lostLately(hop: Hop): { count: number; seconds: number } {
+    const now = performance.now() / 1000;
+    const before = histories.get(hop.name)?.lost.find((one) => one.at >= now - 10);
+    if (!before) return { count: 0, seconds: 0 };
+    return { count: Math.max(0, lossOf(hop) - before.total), seconds: Math.round(now - before.at) };
 }
 
 export const linkFeed = new Feed("links", (object: { time_us: number; hops: Hop[] }) => {
@@ -202,5 +203,6 @@ export const isSilent = (row: Row, age = ageOf(row)): boolean =>
 
 // The server reports a row only when it changes, so the rate of one that fell silent is its last.
 export function rateOf(row: Row, age = ageOf(row)): number {
+    if (isSilent(row, age)) return 0;
     return age > 1.5 && age * row.hz > 3 ? 1 / age : row.hz;
 }

@@ -16,7 +16,7 @@ const schemaOf = (topic: string): Schema | null => channels.get(topic)?.schema ?
 
 export class Recorder {
     readonly points = new Points();
-    error = "";
+    fault: FormulaError | null = null;
     unit = "";
     total = 0;
     arrivedMs = 0;
@@ -47,7 +47,7 @@ export class Recorder {
         this.attempt(() => {
             evaluator?.check(schemaOf);
             this.unit = unitOf(this.formula, this.topic, schemaOf);
-            this.error = "";
+            this.fault = null;
         });
     }
 
@@ -64,7 +64,7 @@ export class Recorder {
         try {
             what();
         } catch (error) {
-            this.error = error instanceof FormulaError ? error.message : String(error);
+            this.fault = error instanceof FormulaError ? error : new FormulaError(String(error), 0);
         }
     }
 
@@ -72,7 +72,7 @@ export class Recorder {
     private take(evaluator: Evaluator, topic: string, data: DataView, timeUs: number): void {
         this.compile(); // the first message may come before the next frame
         const schema = schemaOf(topic);
-        if (!schema || this.error !== "") return;
+        if (!schema || this.fault) return;
         const value = evaluator.take(topic, schema, data);
         if (value === null) return;
         const time = timeUs / 1e6;

@@ -70,8 +70,17 @@ function isTyping(target: EventTarget | null): boolean {
     return isBox || target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement;
 }
 
+// An open menu. The focus returns to what opened it.
+function closeMenu(): boolean {
+    const menu = document.querySelector<HTMLDetailsElement>("details[open]");
+    if (menu) menu.open = false;
+    menu?.querySelector("summary")?.focus();
+    return menu !== null;
+}
+
 function escape(target: EventTarget | null): void {
     if (isHelpOpen.value) isHelpOpen.value = false;
+    else if (closeMenu()) return;
     else if (isTyping(target)) (target as HTMLElement).blur();
     else closeMessage();
 }

@@ -34,13 +34,13 @@ const LossRow = ({ loss }: { loss: Loss }) => (
 );
 
 function Losses({ hop }: { hop: Hop }) {
-    const lately = lostLately(hop);
+    const { count: lately, seconds } = lostLately(hop);
     const total = lossOf(hop);
     if (total === 0)
         return (
             <p class="fine">
                 <Icon name="ended" />
-                nothing lost
+                nothing lost here
             </p>
         );
     return (
@@ -48,7 +48,11 @@ function Losses({ hop }: { hop: Hop }) {
             <p>
                 <Icon name={lately > 0 ? "error" : "info"} />
                 {count(total)} lost
-                <span class="end">{lately > 0 ? `+${count(lately)} in 10 s` : "none in the last 10 s"}</span>
+                {seconds > 0 && (
+                    <span class="end">
+                        {lately > 0 ? `+${count(lately)} in ${seconds} s` : `none in the last ${seconds} s`}
+                    </span>
+                )}
             </p>
             <ul>
                 {hop.losses.map((loss) => (
@@ -95,9 +99,10 @@ const Rate = ({ name, hz, frames }: { name: string; hz: number | null; frames: n
     </div>
 );
 
-// Of a ground station, only its silence is known.
-const isMissing = (hop: Hop): boolean => hop.state !== "up" && hop.kind !== "station";
-const downText = (hop: Hop): string => (isMissing(hop) ? "down" : "not here");
+// Of a ground station, only its silence is known. A source that was never there is waited for.
+const isAwaited = (hop: Hop): boolean => hop.kind === "source" && hop.frames_in + hop.frames_out === 0;
+const isMissing = (hop: Hop): boolean => hop.state !== "up" && hop.kind !== "station" && !isAwaited(hop);
+const downText = (hop: Hop): string => (isAwaited(hop) ? "waiting" : isMissing(hop) ? "down" : "not here");
 
 function Title({ hop }: { hop: Hop }) {
     const isUp = hop.state === "up";
@@ -118,7 +123,7 @@ function Title({ hop }: { hop: Hop }) {
 }
 
 function Box({ hop }: { hop: Hop }) {
-    const classes = `panel hop ${isMissing(hop) ? "down" : ""} ${lostLately(hop) > 0 ? "losing" : ""}`;
+    const classes = `panel hop ${isMissing(hop) ? "down" : ""} ${lostLately(hop).count > 0 ? "losing" : ""}`;
     return (
         <li class={classes}>
             <Title hop={hop} />

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import { computed, signal } from "@preact/signals";
-import { useEffect, useLayoutEffect } from "preact/hooks";
+import { useEffect, useLayoutEffect, useRef } from "preact/hooks";
 import { seconds } from "../model/feeds";
 import { linkFeed, rateOf, rows, trafficFeed, type Row } from "../model/observed";
 import { columns, opened, query, sort } from "../model/state";
@@ -173,8 +173,16 @@ function Chooser() {
         const has = columns.value.includes(column);
         columns.value = COLUMNS.filter((one) => (one === column ? !has : columns.value.includes(one)));
     };
+    const menu = useRef<HTMLDetailsElement>(null);
+    useEffect(() => {
+        const close = (event: Event) => {
+            if (menu.current && !menu.current.contains(event.target as Node)) menu.current.open = false;
+        };
+        document.addEventListener("pointerdown", close);
+        return () => document.removeEventListener("pointerdown", close);
+    }, []);
     return (
-        <details class="chooser">
+        <details class="chooser" ref={menu}>
             <summary>Columns</summary>
             <div class="menu">
                 {COLUMNS.filter((column) => column !== "name").map((column) => (

@@ -4,6 +4,7 @@ import { useLayoutEffect, useRef } from "preact/hooks";
 import type uPlot from "uplot";
 import { seconds } from "../model/feeds";
 import { recorderOf, recordersVersion } from "../model/recorders";
+import type { FormulaError } from "../model/formula";
 import { checkFormula, topicOf } from "../model/series";
 import { newSeries, opened, plot as addTo, plots, span } from "../model/state";
 import { SPANS, type SeriesState } from "../model/url";
@@ -61,12 +62,11 @@ function submit(event: Event): void {
     formula.value = "";
 }
 
-function Fault() {
-    const found = fault.value;
+// Where a formula is wrong, and why.
+function Fault({ text, found, id }: { text: string; found: FormulaError | null; id?: string }) {
     if (!found) return null;
-    const text = formula.value;
     return (
-        <p class="fault" role="alert" id="fault">
+        <p class="fault" role="alert" id={id}>
             <code>
                 {text.slice(0, found.at)}
                 <mark>{text.slice(found.at, found.at + 1) || " "}</mark>
@@ -158,7 +158,7 @@ function Form() {
             {isUnknown && formula.value !== "" && (
                 <p class="fault warning">No {topic.value} has come yet: the plot waits for it.</p>
             )}
-            <Fault />
+            <Fault text={formula.value} found={fault.value} id="fault" />
         </form>
     );
 }
@@ -235,10 +235,10 @@ function Values({ series }: { series: SeriesState }) {
     recordersVersion.value;
     const recorder = recorderOf(series);
     const waits = recorder !== undefined && recorder.total === 0;
-    if (recorder?.error || waits)
+    if (recorder?.fault || waits)
         return (
-            <td class={recorder?.error ? "error" : "dim"} colSpan={4}>
-                {recorder?.error || "waits for its first message"}
+            <td class={recorder?.fault ? "error" : "dim"} colSpan={4}>
+                {recorder?.fault ? "wrong formula" : "waits for its first message"}
             </td>
         );
     const [least, most] = extremes(series);
@@ -280,7 +280,8 @@ function Settings({ series, set }: { series: SeriesState; set: Set }) {
 }
 
 function Line({ series, at, index }: { series: SeriesState; at: number; index: number }) {
-    return (
+    const found = recorderOf(series)?.fault ?? null;
+    const line = (
         <tr>
             <td>
                 <i class={`swatch s${index % SERIES_COLOURS} d${Math.floor(index / 2) % 4}`} />
@@ -294,6 +295,18 @@ function Line({ series, at, index }: { series: SeriesState; at: number; index: n
             <Values series={series} />
             <Settings series={series} set={(by) => change(at, index, by)} />
         </tr>
+    );
+    if (!found) return line;
+    return (
+        <>
+            {line}
+            <tr class="wrong">
+                <td />
+                <td colSpan={9}>
+                    <Fault text={series.formula} found={found} />
+                </td>
+            </tr>
+        </>
     );
 }
 

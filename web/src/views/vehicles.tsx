@@ -16,6 +16,7 @@ import {
 import { query, view } from "../model/state";
 import { duration, fixed, hertz, NOTHING, words } from "../ui/format";
 import { Icon } from "../ui/icon";
+import { focusOn } from "../ui/keys";
 import { Table, type Column } from "../ui/table";
 import { Nothing } from "./nothing";
 
@@ -107,11 +108,43 @@ const Marks = ({ all }: { all: Alarm[] }) => {
     );
 };
 
+const Title = ({ one }: { one: Vehicle }) => (
+    <>
+        <b class="mono">{vehicleId(one)}</b> {words(one.type, "MAV_TYPE_")}
+    </>
+);
+
 const Name = ({ one }: { one: Vehicle }) => (
     <button class="name" onClick={() => showMessages(one)} title="Show its messages">
-        <b class="mono">{vehicleId(one)}</b> {words(one.type, "MAV_TYPE_")}
+        <Title one={one} />
     </button>
 );
+
+// Where the table has no room for all columns, the panel of one vehicle is above it.
+const selected = signal<string | null>(null);
+const narrow = window.matchMedia("(max-width: 1380px)");
+const isNarrow = signal(narrow.matches);
+narrow.addEventListener("change", () => {
+    isNarrow.value = narrow.matches;
+});
+
+function Opener({ one }: { one: Vehicle }) {
+    if (!isNarrow.value) return <Name one={one} />;
+    const id = vehicleId(one);
+    const isOpen = selected.value === id;
+    return (
+        <button
+            class="name"
+            aria-expanded={isOpen}
+            title="Show its state"
+            onClick={() => {
+                selected.value = isOpen ? null : id;
+                if (!isOpen) focusOn(".panels.one .name");
+            }}>
+            <Title one={one} />
+        </button>
+    );
+}
 
 // ---- panels
 
@@ -216,7 +249,7 @@ function Panel({ one }: { one: Vehicle }) {
 // ---- the table
 
 const COLUMNS: Column<Vehicle>[] = [
-    { key: "vehicle", label: "Vehicle", cell: (one) => <Name one={one} /> },
+    { key: "vehicle", label: "Vehicle", cell: (one) => <Opener one={one} /> },
     { key: "marks", label: "Alarms", cell: (one) => <Marks all={alarmsOf(one)} /> },
     { key: "mode", label: "Mode", cell: (one) => one.mode ?? NOTHING },
     { key: "armed", label: "Armed", cell: (one) => <Armed armed={one.armed} /> },
@@ -261,19 +294,25 @@ function Others({ all }: { all: Vehicle[] }) {
     );
 }
 
-const selected = signal<string | null>(null);
-
 function List({ all }: { all: Vehicle[] }) {
+    const open = isNarrow.value ? all.find((one) => vehicleId(one) === selected.value) : undefined;
     if (all.length > FEW)
         return (
-            <Table
-                caption="Vehicles"
-                columns={COLUMNS}
-                rows={all}
-                keyOf={vehicleId}
-                current={selected.value}
-                classOf={(one) => (one.silent ? "silent" : "")}
-            />
+            <>
+                {open && (
+                    <div class="panels one">
+                        <Panel one={open} />
+                    </div>
+                )}
+                <Table
+                    caption="Vehicles"
+                    columns={COLUMNS}
+                    rows={all}
+                    keyOf={vehicleId}
+                    current={open ? selected.value : null}
+                    classOf={(one) => `${one.silent ? "silent" : ""} ${one === open ? "open" : ""}`}
+                />
+            </>
         );
     return (
         <div class="panels">
