@@ -25,9 +25,9 @@ public:
     [[nodiscard]] bool is_free() const noexcept { return speed_ == max_speed; }
     [[nodiscard]] bool is_paused() const noexcept { return is_paused_; }
 
-    // A free clock is alone in its world, so the vehicles' partners live by it, too.
+    // A free clock is alone in its world: its real time is its own, too, whenever the machine was started.
     [[nodiscard]] sim::Moment at(MonoTime now) const noexcept {
-        if (is_free()) return {.flight = flight_, .real = start_ + flight_};
+        if (is_free()) return {.flight = flight_, .real = MonoTime{} + flight_};
         if (!has_started() || is_paused_) return {.flight = flight_, .real = now};
         const Nanoseconds real = now - since_;
         return {.flight = flight_ + (speed_ == 1 ? real : scaled(real, speed_, 0)), .real = now};
@@ -41,11 +41,13 @@ public:
         return since_ + (speed_ == 1 ? ahead : scaled(ahead, 1 / speed_, 1));
     }
 
+    // Neither does anything twice.
     void pause(MonoTime now) noexcept {
         flight_ = at(now).flight;
         is_paused_ = true;
     }
     void resume(MonoTime now) noexcept {
+        if (!is_paused_) return;
         since_ = now;
         is_paused_ = false;
     }

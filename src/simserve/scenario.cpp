@@ -245,12 +245,23 @@ private:
                 return document_.error(table.line, fmt::format("an event needs the key {}, as in at = \"5s\", do = "
                                                                "\"takeoff 20\"",
                                                                key));
+        if (event.system && !has_system(*event.system))
+            return document_.error(table.line, fmt::format("there is no vehicle {}", event.system->value));
+        if (scenario_.speed == max_speed && scenario_.duration && event.at > *scenario_.duration)
+            return document_.error(table.line, "the flight ends before this event");
         auto request = request_of_order(event.words, event.system);
         if (!request) return document_.error(table.line, request.error().text);
         section.label = find(section, "at").value;
         scenario_.orders.push_back({event.at, std::move(event.words), std::move(*request)});
         scenario_.sections.push_back(std::move(section));
         return {};
+    }
+
+    [[nodiscard]] bool has_system(SystemId system) const {
+        return std::ranges::any_of(scenario_.vehicles, [&](const ScenarioVehicle& group) {
+            const auto place = system.value - group.options.system.value;
+            return place >= 0 && place < static_cast<int>(group.count);
+        });
     }
 
     // ---- endpoints ----

@@ -153,9 +153,11 @@ void Simulator::fly_to(sim::FlightTime flight) {
 void Simulator::run_orders(sim::Moment now) {
     while (time_line_->next_due() <= now.flight) {
         const auto& order = time_line_->take();
-        if (const auto error = error_of(answer(order.request)); !error.empty())
-            notice_(config::LogLevel::warning,
-                    fmt::format("order '{}' at {:g} s: {}", order.text, seconds(order.at), error));
+        const auto error = error_of(answer(order.request));
+        if (error.empty()) continue;
+        ++refused_orders_;
+        notice_(config::LogLevel::warning,
+                fmt::format("order '{}' at {:g} s: {}", order.text, seconds(order.at), error));
     }
 }
 
@@ -171,7 +173,7 @@ bool Simulator::is_paused() const { return clock_->is_paused(); }
 
 bool Simulator::step(Nanoseconds time) {
     if (!clock_->is_paused()) return false;
-    const auto end = flight_time() + std::min(time, max_step);
+    const auto end = std::min(flight_time() + std::clamp(time, Nanoseconds{}, max_step), options_.flight_end);
     const auto next = [&] { return std::max(std::min(fleet_->next_due(), time_line_->next_due()), flight_time()); };
     for (auto at = next(); at < end; at = next()) {
         fly_to(at);

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <array>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "mavloom/base/shown.hpp"

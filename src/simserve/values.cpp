@@ -54,9 +54,12 @@ SetupResult<WallTime> parse_utc(std::string_view text) {
     std::tm fields{};
     const std::string whole(text);
     const char* const end = strptime(whole.c_str(), "%Y-%m-%dT%H:%M:%SZ", &fields);
-    const auto seconds = end == whole.c_str() + whole.size() ? timegm(&fields) : -1;
-    if (seconds > 0) return WallTime{std::chrono::seconds{seconds}};
-    return usage(fmt::format("{} is not a time in UTC, such as 2026-11-29T12:00:00Z", in_quotes(text)));
+    if (end == whole.c_str() + whole.size() && fields.tm_year > 70 && fields.tm_year < 200) {
+        const std::tm typed = fields;
+        const WallTime time{std::chrono::seconds{timegm(&fields)}};  // which takes 31 February for a day in March
+        if (typed.tm_mday == fields.tm_mday && typed.tm_min == fields.tm_min) return time;
+    }
+    return usage(fmt::format("{} is not a time in UTC from 1971 to 2099, such as 2026-11-29T12:00:00Z", in_quotes(text)));
 }
 
 SetupResult<std::size_t> parse_choice(std::string_view text, std::span<const std::string_view> choices) {

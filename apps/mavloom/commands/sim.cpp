@@ -181,6 +181,10 @@ void fly(const Scenario& scenario, Simulator& simulator) {
     manager.stopping();
 }
 
+sim::FlightTime flight_end_of(const Scenario& scenario) {
+    return scenario.speed == simserve::max_speed && scenario.duration ? *scenario.duration : sim::FlightTime::max();
+}
+
 SetupResult<std::unique_ptr<Simulator>> make_simulator(const Common& common, const Scenario& scenario,
                                                        const dialect::Dialect& dialect) {
     const auto notice = [&common](config::LogLevel level, std::string_view text) {
@@ -188,7 +192,7 @@ SetupResult<std::unique_ptr<Simulator>> make_simulator(const Common& common, con
     };
     auto simulator = Simulator::create(dialect,
                                        {.speed = scenario.speed,
-                                        .flight_end = scenario.duration.value_or(sim::FlightTime::max()),
+                                        .flight_end = flight_end_of(scenario),
                                         .utc_at_start = scenario.start_time,
                                         .orders = scenario.orders,
                                         .profile = scenario.profile,
@@ -239,7 +243,8 @@ Exit simulate(const Common& common, const SimOptions& options) {
     fly(*scenario, **simulator);
     if (const auto finished = (*simulator)->finish(sim_send_limit); !finished) return fail(finished.error());
     if (!scenario->recording.empty()) log_recording(common, *scenario, **simulator);
-    return Signals::status(print_report(options, *scenario, **simulator, Exit::done));
+    return Signals::status(
+        print_report(options, *scenario, **simulator, (*simulator)->refused_orders() == 0 ? Exit::done : Exit::failed));
 }
 
 }  // namespace

@@ -149,9 +149,12 @@ public:
     [[nodiscard]] SimulatorTotals totals() const;
     [[nodiscard]] const SimulatorOptions& options() const noexcept { return options_; }
     [[nodiscard]] sim::FlightTime flight_time() const;
-    // The flight clock stands still or runs again. `step` moves a clock that stands still by this time, at most
-    // `max_step`, and returns false if it runs. Frames from partners are answered all the same.
-    static constexpr Nanoseconds max_step = std::chrono::minutes{1};
+    // Orders of the time line that a vehicle refused. Each was reported.
+    [[nodiscard]] std::uint64_t refused_orders() const noexcept { return refused_orders_; }
+    // The flight clock stands still or runs again. `step` moves a clock that stands still by this time, from 0 to
+    // `max_step`, though not beyond `flight_end`, and returns false if it runs. Frames from partners are answered all
+    // the same.
+    static constexpr Nanoseconds max_step = std::chrono::seconds{10};
     void pause();
     void resume();
     [[nodiscard]] bool is_paused() const;
@@ -185,6 +188,7 @@ private:
     std::unique_ptr<Connections> connections_;
     MonoTime created_ = mono_now();
     MonoTime maintain_due_{}, page_due_{};
+    std::uint64_t refused_orders_ = 0;
 };
 
 }  // namespace mavloom::simserve

@@ -45,6 +45,8 @@ TEST(FlightClock, StandsStillAndRunsAgain) {
 
     EXPECT_EQ(sut.at(start + 10s).flight, 22s);
     EXPECT_EQ(sut.when(32s), start + 11s + 1ns);
+    sut.resume(start + 20s);
+    EXPECT_EQ(sut.at(start + 20s).flight, 122s) << "it ran already";
 }
 
 TEST(FlightClock, ThatIsFreeShowsWhatItIsSetTo) {
@@ -55,7 +57,7 @@ TEST(FlightClock, ThatIsFreeShowsWhatItIsSetTo) {
     sut.set(1h);
 
     EXPECT_EQ(sut.at(start + 1s).flight, 1h);
-    EXPECT_EQ(sut.at(start + 1s).real, start + 1h) << "time-outs, too";
+    EXPECT_EQ(sut.at(start + 1s).real, MonoTime{1h}) << "time-outs and signatures, too";
     EXPECT_LE(sut.when(2h), start);
 }
 

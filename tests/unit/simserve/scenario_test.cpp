@@ -116,6 +116,8 @@ TEST(Scenario, KnowsItselfFromARoutersConfiguration) {
 
 TEST(Scenario, OrdersAreRequestsOfTheControlSocket) {
     const auto sut = read(R"(
+[[vehicle]]
+count = 3
 [[event]]
 at = "1.5s"
 do = "goto 47.5 -8 30"
@@ -134,7 +136,8 @@ do = "land"
 TEST(ScenarioValues, TimesAreInUtc) {
     EXPECT_EQ(parse_utc("2026-11-29T12:00:00Z").value(), WallTime{std::chrono::seconds{1'795'953'600}});
     for (const auto* const text :
-         {"", "2026-11-29", "2026-11-29T12:00:00", "2026-11-29T12:00:00Z ", "2026-13-29T12:00:00Z"})
+         {"", "2026-11-29", "2026-11-29T12:00:00", "2026-11-29T12:00:00Z ", "2026-13-29T12:00:00Z",
+          "2026-02-30T12:00:00Z", "2026-11-29T12:00:60Z", "2300-01-01T00:00:00Z", "1969-01-01T00:00:00Z"})
         EXPECT_FALSE(parse_utc(text)) << text;
 }
 

@@ -114,6 +114,8 @@ def test_wrong_use(run, arguments, status, text):
     ('at = "5s"\ndo = "takeof 5"', "did you mean 'takeoff'?"),
     ('at = "5s"\ndo = "takeoff"', "write takeoff ALTITUDE"),
     ('at = "5s"\ndo = "goto 47 north"', "longitude: 'north' is not a number"),
+    ('at = "5s"\ndo = "land"\nsystem = 9', "there is no vehicle 9"),
+    ('at = "5m"\ndo = "land"\n[sim]\nspeed = "max"\nfor = "1m"', "the flight ends before this event"),
 ])
 def test_wrong_orders(run, tmp_path, order, text):
     (tmp_path / "x.toml").write_text(f"[[vehicle]]\n[[event]]\n{order}\n")
@@ -124,7 +126,7 @@ def test_wrong_orders(run, tmp_path, order, text):
 def test_a_refused_order_is_reported(run, tmp_path):
     (tmp_path / "x.toml").write_text('[[event]]\nat = "1s"\ndo = "takeoff 5"\n')
     done = run("sim", tmp_path / "x.toml", "--speed", "max", "--for", "2s", "--record", tmp_path / "x.tlog")
-    assert done.status == 0 and "order 'takeoff 5' at 1 s: Navigation error" in done.stderr, done
+    assert done.status == 1 and "order 'takeoff 5' at 1 s: Navigation error" in done.stderr, done
 
 
 def test_a_clock_that_runs_takes_no_step(sim, run):
