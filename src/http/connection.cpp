@@ -175,7 +175,11 @@ void Connection::answer(const BeastRequest& request) {
     const auto host = view_of(request[field::host]), origin = view_of(request[field::origin]);
     if (request.count(field::host) > 1) return refuse(400, Count::wrong_host, "there are two Host headers\n");
     if (!server_->allowed.has_host(host, local_, mono_now()))
-        return refuse(403, Count::wrong_host, "the Host header must be this address or localhost\n");
+        return refuse(403, Count::wrong_host,
+                      server_->options.access.own_names
+                          ? "the Host header must be this address, localhost, or a name of --host (--web-host of "
+                            "route and sim)\n"
+                          : "the Host header must be this address or localhost\n");
     if (!server_->allowed.has_origin(origin, host))
         return refuse(403, Count::wrong_origin, fmt::format("pages of {} may not connect here\n", shown(origin)));
     if (!origin.empty() && server_->allowed.is_listed(origin)) listed_origin_ = origin;

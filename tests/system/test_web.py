@@ -302,6 +302,19 @@ def test_its_sources_are_links(web):
     assert (link["name"], link["state"], link["frames_in"]) == (f"{server.source}#{host}:{port}", "up", 1)
 
 
+def test_a_link_has_the_gaps_of_its_senders(web):
+    server = web()
+    server.send(attitude(0.5))
+    for _ in range(3):
+        routers.make(attitude(0.5))  # takes a sequence number
+    server.send(attitude(0.5))
+
+    def losses():
+        hop = json.loads(server.get("/api/v1/links"))["hops"][-1]
+        return hop["losses"], [(loss["name"], loss["count"]) for link in hop["links"] for loss in link["losses"]]
+    assert harness.wait_for(lambda: any(losses()) and losses(), what="the loss") == ([], [("lost", 3)])
+
+
 def test_the_counts_of_an_answer_are_of_one_moment(web):
     server = web()
     server.send(attitude(0))
