@@ -2,12 +2,18 @@
 #include "flight/craft.hpp"
 
 #include "flight/physics/atmosphere.hpp"
+#include "flight/physics/magnetic_field.hpp"
 
 namespace mavloom::flight {
 
 namespace {
 
 constexpr std::uint64_t wind_stream = 0x77696e64;  // the wind draws from numbers of its own
+
+// Only a multicopter can fly at random.
+Kind kind_of(const VehicleOptions& options) noexcept {
+    return options.motion == Motion::random ? Kind::quad : options.kind;
+}
 
 GeoPoint geo_of(const Home& home) { return {home.latitude_deg, home.longitude_deg, home.altitude_m}; }
 
@@ -16,9 +22,10 @@ GeoPoint geo_of(const Home& home) { return {home.latitude_deg, home.longitude_de
 Craft::Craft(const VehicleOptions& options)
     : kind_(options.kind),
       ground_altitude_(options.home.altitude_m),
-      airframe_(make_airframe(options.motion == Motion::random ? Kind::quad : options.kind)),
+      plant_(make_plant(kind_of(options), options.body)),
+      pilot_(make_pilot(kind_of(options), options.body)),
       battery_(options.battery, options.autopilot == Autopilot::px4),
-      sensors_(options.has_noise, options.seed),
+      sensors_(options.has_noise, options.seed, magnetic_field(geo_of(options.home))),
       wind_(options.wind, options.seed ^ wind_stream),
       frame_(geo_of(options.home)),
       air_density_(density_at(options.home.altitude_m)) {
@@ -26,7 +33,8 @@ Craft::Craft(const VehicleOptions& options)
 }
 
 void Craft::place(const Vector3& position, double heading) {
-    airframe_->place(position, heading);
+    plant_->place(position, heading);
+    pilot_->start(truth());
     sense();
 }
 
@@ -40,22 +48,33 @@ void Craft::reboot() {
 }
 
 void Craft::step(const Setpoint& setpoint, bool armed) {
-    time_ += step_time;
     wind_.step();
-    airframe_->step(
-        setpoint, armed,
-        {.wind = wind_.velocity(), .ground = ground_z(), .air_density = air_density_, .supply = battery_.supply()});
-    battery_.step(airframe_->load(), step_s);
+    move(pilot_->step(setpoint, armed, *plant_, surroundings()), armed);
+}
+
+void Craft::step(const Outputs& outputs, bool armed) {
+    wind_.step();
+    move(outputs, armed);
+}
+
+void Craft::move(const Outputs& outputs, bool armed) {
+    time_ += step_time;
+    outputs_ = outputs;
+    plant_->step(outputs, surroundings(), step_s);
+    battery_.step(plant_->load(), step_s);
     if (!armed) battery_.rest(step_s);
     sense();
 }
 
+Surroundings Craft::surroundings() const {
+    return {.wind = wind_.velocity(), .ground = ground_z(), .air_density = air_density_, .supply = battery_.supply()};
+}
+
 // A resting vehicle does not move, and its motors do not shake it.
 void Craft::sense() {
-    const Kinematics& motion = airframe_->motion();
-    const bool at_rest = airframe_->touches_ground() && motion.velocity.squaredNorm() < 1e-4 &&
-                         airframe_->thrust() < 0.2;
-    sensors_.step(motion, airframe_->air_velocity(), at_rest, frame_.origin().altitude, air_density_);
+    const Kinematics& motion = truth();
+    const bool at_rest = plant_->touches_ground() && motion.velocity.squaredNorm() < 1e-4 && plant_->thrust() < 0.2;
+    sensors_.step(motion, plant_->air_velocity(), at_rest, frame_.origin().altitude, air_density_);
     position_is_old_ = true;
 }
 
@@ -63,7 +82,8 @@ Vector3 Craft::set_origin(const GeoPoint& origin) {
     const LocalFrame frame(origin);
     const Vector3 by = frame.to_local(frame_.to_geo(truth().position)) - truth().position;
     frame_ = frame;
-    airframe_->move_origin(by);
+    plant_->move_origin(by);
+    pilot_->move_origin(by);
     sensors_.move_origin(by);
     home_place_ = home_ ? frame_.to_local(*home_) : Vector3(home_place_ + by);
     position_is_old_ = has_origin_ = true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The body of a vehicle: airframe, battery, sensors, the wind around it, and its place on earth. Private to flight;
-// single owner; `step` allocates nothing. Craft makes no decisions.
+// A vehicle without its decisions: plant, pilot, battery, sensors, the wind around it, and its place on earth. Private
+// to flight; single owner; `step` allocates nothing.
 #pragma once
 
 #include <memory>
@@ -10,6 +10,7 @@
 #include "flight/physics/geodesy.hpp"
 #include "flight/physics/sensors.hpp"
 #include "flight/physics/wind.hpp"
+#include "flight/pilot/pilot.hpp"
 #include "mavloom/flight/moment.hpp"
 #include "mavloom/flight/options.hpp"
 
@@ -19,8 +20,9 @@ class Craft {
 public:
     explicit Craft(const VehicleOptions& options);
 
-    // Advances by one step of 4 ms.
+    // Advance by one step of 4 ms: under the craft's own pilot, or with the outputs of a foreign autopilot.
     void step(const Setpoint& setpoint, bool armed);
+    void step(const Outputs& outputs, bool armed);
     // Puts the vehicle at rest at a place of the local frame, which may be in the air.
     void place(const Vector3& position, double heading);
     // Boots the vehicle again where it stands.
@@ -28,8 +30,12 @@ public:
 
     [[nodiscard]] Kind kind() const noexcept { return kind_; }
     [[nodiscard]] FlightTime since_boot() const noexcept { return time_; }
-    [[nodiscard]] const Airframe& airframe() const noexcept { return *airframe_; }
-    [[nodiscard]] const Kinematics& truth() const noexcept { return airframe_->motion(); }
+    [[nodiscard]] const Plant& plant() const noexcept { return *plant_; }
+    [[nodiscard]] const Kinematics& truth() const noexcept { return plant_->motion(); }
+    // The outputs of the last step.
+    [[nodiscard]] const Outputs& outputs() const noexcept { return outputs_; }
+    // Of the craft's own pilot.
+    [[nodiscard]] const InnerTargets& targets() const noexcept { return pilot_->targets(); }
     [[nodiscard]] const Estimate& estimate() const noexcept { return sensors_.estimate(); }
     [[nodiscard]] const Vector3& wind() const noexcept { return wind_.velocity(); }
     [[nodiscard]] const Sensors& sensors() const noexcept { return sensors_; }
@@ -58,11 +64,15 @@ public:
     void set_home(const GeoPoint& point, double yaw);
 
 private:
+    [[nodiscard]] Surroundings surroundings() const;
+    void move(const Outputs& outputs, bool armed);
     void sense();
 
     const Kind kind_;
     const double ground_altitude_;
-    std::unique_ptr<Airframe> airframe_;
+    std::unique_ptr<Plant> plant_;
+    std::unique_ptr<Pilot> pilot_;
+    Outputs outputs_{};
     Battery battery_;
     Sensors sensors_;
     WindField wind_;

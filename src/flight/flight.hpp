@@ -7,7 +7,7 @@
 //
 // Its parts, in the order in which they work:
 //
-//   Craft           moves: airframe, battery, sensors, wind       250 Hz
+//   Craft           moves: plant, pilot, battery, sensors, wind       250 Hz
 //   Navigator       set-points for the current behaviour           50 Hz, like the parts below
 //   LandedDetector  on the ground or not
 //   Commander       armed or not, and in which mode
@@ -112,7 +112,9 @@ public:
     [[nodiscard]] const Kinematics& truth() const noexcept { return context_.craft.truth(); }
     [[nodiscard]] const Estimate& estimate() const noexcept { return context_.craft.estimate(); }
     [[nodiscard]] const Sensors& sensors() const noexcept { return context_.craft.sensors(); }
-    [[nodiscard]] const Airframe& airframe() const noexcept { return context_.craft.airframe(); }
+    [[nodiscard]] const Plant& plant() const noexcept { return context_.craft.plant(); }
+    [[nodiscard]] const Outputs& outputs() const noexcept { return context_.craft.outputs(); }
+    [[nodiscard]] const InnerTargets& inner_targets() const noexcept { return context_.craft.targets(); }
     [[nodiscard]] const Battery& battery() const noexcept { return context_.craft.battery(); }
     [[nodiscard]] const Vector3& wind() const noexcept { return context_.craft.wind(); }
     [[nodiscard]] const Setpoint& setpoint() const noexcept { return navigator_.guidance().setpoint(); }

@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "flight/physics/airframe.hpp"
 #include "flight/physics/geodesy.hpp"
+#include "flight/pilot/pilot.hpp"
 
 namespace mavloom::flight {
 

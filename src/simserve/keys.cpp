@@ -12,6 +12,7 @@
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/config/keys.hpp"
 #include "mavloom/endpoint/grammar.hpp"
+#include "simserve/scenario/body.hpp"
 #include "simserve/time_line.hpp"
 #include "simserve/values.hpp"
 
@@ -139,7 +140,7 @@ constexpr std::array<Key<ScenarioEvent>, 3> all_event_keys{{
     {"system", "", [](ScenarioEvent& e, Text t) { return put(parse_system(t), e.system); }},
 }};
 
-constexpr std::array<Key<ScenarioVehicle>, 14> all_vehicle_keys{{
+constexpr std::array<Key<ScenarioVehicle>, 15> all_vehicle_keys{{
     {"kind", "quad", set_kind},
     {"autopilot", "px4",
      [](ScenarioVehicle& v, Text t) { return put_choice(t, sim::autopilot_names, v.options.autopilot); }},
@@ -150,6 +151,7 @@ constexpr std::array<Key<ScenarioVehicle>, 14> all_vehicle_keys{{
     {"wind", "0,0", [](ScenarioVehicle& v, Text t) { return put(parse_wind(t), v.options.wind); }},
     {"battery", "capacity:5000,cells:4,minutes:20,start:100",
      [](ScenarioVehicle& v, Text t) { return put(parse_battery(t), v.options.battery); }},
+    {"body", "standard", [](ScenarioVehicle& v, Text t) { return put(parse_body(t), v.options.body); }},
     {"gimbal", "false", [](ScenarioVehicle& v, Text t) { return put(parse_bool(t), v.options.has_gimbal); }},
     {"traffic", "0", [](ScenarioVehicle& v, Text t) { return put(parse_integer(t, 0, max_traffic), v.options.traffic); }},
     {"logs", "2", [](ScenarioVehicle& v, Text t) { return put(parse_integer(t, 0, max_logs), v.options.logs); }},

@@ -10,6 +10,7 @@
 
 #include "mavloom/base/clock.hpp"
 #include "mavloom/base/ids.hpp"
+#include "mavloom/flight/body.hpp"
 
 namespace mavloom::flight {
 
@@ -82,6 +83,7 @@ struct VehicleOptions {
     std::size_t logs = 2;             // recorded logs that can be downloaded
     // Time from boot until GPS, position and home are valid.
     Nanoseconds ready_after = std::chrono::milliseconds{2500};
+    CopterBody body{};        // of a quad
     WallTime utc_at_start{};  // UTC at flight time 0; the epoch means that UTC is unknown
 };
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flight/physics/path.hpp"
+#include "flight/pilot/path.hpp"
 
 namespace mavloom::flight {
 

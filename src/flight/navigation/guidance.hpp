@@ -35,7 +35,7 @@ public:
 
     // Updates the set-point. Call it 50 times a second.
     void update();
-    // Like Airframe::move_origin.
+    // Like Plant::move_origin.
     void move_origin(const Vector3& by);
 
     // --- Settings that also apply to later manoeuvres.

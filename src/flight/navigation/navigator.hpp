@@ -22,7 +22,7 @@ public:
     void enter(Behaviour behaviour);
     // Call it 50 times a second. When the current behaviour is done, returns the behaviour to enter next.
     [[nodiscard]] std::optional<Behaviour> update();
-    // Like Airframe::move_origin.
+    // Like Plant::move_origin.
     void move_origin(const Vector3& by) { guidance_.move_origin(by); }
 
     // --- Orders within the current behaviour.

@@ -13,7 +13,7 @@ public:
     // ArduPilot's keeps its charge, and draws no current while the motors stand still.
     Battery(const BatteryOptions& options, bool charges_at_rest) noexcept;
 
-    // `load` as in Airframe::load.
+    // `load` as in Plant::load.
     void step(double load, double dt) noexcept;
     // Sets the charge to `share` (0 to 1). Until `restore`, `rest` stops at that level. For tests of fail-safes.
     void set_remaining(double share) noexcept;

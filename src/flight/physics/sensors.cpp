@@ -25,9 +25,7 @@ constexpr double estimated_rate_sigma = to_radians(0.2);
 constexpr double resting_vibration = 0.02, flying_vibration = 2;  // m/s^2
 constexpr double self_heating = 3;                                // K, of the board above the air
 
-// The magnetic field at Zurich, gauss, north east down.
-const Vector3 field{0.21, 0.01, 0.43};
-const Vector3 field_sigma{0.02, 0.02, 0.03};
+const Vector3 field_sigma{0.02, 0.02, 0.03};  // gauss
 
 std::array<SmoothWander, 3> wander(double north, double east, double down, double tau) {
     return {SmoothWander(north, tau, step_s), SmoothWander(east, tau, step_s), SmoothWander(down, tau, step_s)};
@@ -53,8 +51,9 @@ Quaternion small_turn(const Vector3& angles) {
 
 // Estimate: 3 cm, which with 3 s gives 1 cm/s; roll and pitch 0.15 degrees, yaw 0.3 degrees. GPS: the correlation times
 // and deviations of PX4's simulated receiver (position: 0.76 from sample to sample, velocity: 0.54).
-Sensors::Sensors(bool has_noise, std::uint64_t seed)
+Sensors::Sensors(bool has_noise, std::uint64_t seed, const Vector3& magnetic_field)
     : random_(seed),
+      magnetic_field_(magnetic_field),
       has_noise_(has_noise),
       position_wander_(wander(0.03, 0.03, 0.03, 3)),
       attitude_wander_(wander(to_radians(0.15), to_radians(0.15), to_radians(0.3), 2)),
@@ -115,7 +114,7 @@ void Sensors::step_bias() {
 
 void Sensors::step_magnetometer(const Quaternion& attitude) {
     const Vector3 jitter = noise(field_sigma);
-    if (!failures_.magnetometer_off) imu_.magnetic = attitude.conjugate() * field + jitter;
+    if (!failures_.magnetometer_off) imu_.magnetic = attitude.conjugate() * magnetic_field_ + jitter;
 }
 
 void Sensors::step_barometer(const Kinematics& truth, const Vector3& air_velocity, double altitude, double air_density) {

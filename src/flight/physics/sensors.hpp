@@ -6,9 +6,9 @@
 // The magnitudes are those of PX4's built-in simulator (docs/design/simulator.md).
 #pragma once
 
-#include "flight/physics/airframe.hpp"
 #include "flight/physics/geodesy.hpp"
 #include "flight/physics/noise.hpp"
+#include "flight/plant/plant.hpp"
 
 namespace mavloom::flight {
 
@@ -44,13 +44,14 @@ struct SensorFailures {
 
 class Sensors {
 public:
-    Sensors(bool has_noise, std::uint64_t seed);
+    // `magnetic_field` in gauss; north, east, down. It does not change: vehicles do not fly far.
+    Sensors(bool has_noise, std::uint64_t seed, const Vector3& magnetic_field);
 
-    // Call it after each step of the airframe, and once before the first. `origin_altitude` is the altitude (AMSL, m)
+    // Call it after each step of the plant, and once before the first. `origin_altitude` is the altitude (AMSL, m)
     // of the local origin.
     void step(const Kinematics& truth, const Vector3& air_velocity, bool at_rest, double origin_altitude,
               double air_density);
-    // Like Airframe::move_origin.
+    // Like Plant::move_origin.
     void move_origin(const Vector3& by);
     void set_failures(const SensorFailures& failures) noexcept { failures_ = failures; }
     [[nodiscard]] const SensorFailures& failures() const noexcept { return failures_; }
@@ -80,6 +81,7 @@ private:
     [[nodiscard]] Vector3 noise(const Vector3& sigma);
 
     Random random_;
+    Vector3 magnetic_field_;
     bool has_noise_, gps_acquired_ = false;
     SensorFailures failures_;
     Wander3 position_wander_, attitude_wander_;

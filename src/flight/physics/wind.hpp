@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include "flight/physics/airframe.hpp"
 #include "flight/physics/noise.hpp"
+#include "flight/plant/plant.hpp"
 #include "mavloom/flight/options.hpp"
 
 namespace mavloom::flight {

@@ -30,12 +30,12 @@ bool LandedDetector::is_airborne(const Phase& phase) {
     if (context_.kind() == Kind::rover && context_.options.motion == Motion::flight)
         return context_.armed && !phase.is_home;
     const Craft& craft = context_.craft;
-    const Airframe& airframe = craft.airframe();
-    const bool rests = airframe.touches_ground() && airframe.motion().velocity.norm() < slow &&
-                       (!context_.armed || airframe.thrust() < low_thrust);
+    const Plant& plant = craft.plant();
+    const bool rests = plant.touches_ground() && plant.motion().velocity.norm() < slow &&
+                       (!context_.armed || plant.thrust() < low_thrust);
     if (!rests) resting_since_ = context_.now();
     if (context_.is_on_ground())
-        return !airframe.touches_ground() && craft.ground_z() - craft.truth().position.z() > clearance;
+        return !plant.touches_ground() && craft.ground_z() - craft.truth().position.z() > clearance;
     return !rests || (context_.armed && context_.seconds_since(resting_since_) < resting_time);
 }
 

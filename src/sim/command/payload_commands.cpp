@@ -41,7 +41,7 @@ Outcome set_actuator(Parts& parts, const Command& command, Moment /*now*/) {
 
 // ArduPilot refuses a channel that the vehicle itself drives.
 Outcome set_servo(Parts& parts, const Command& command, Moment /*now*/) {
-    if (command.param(1) <= parts.flight.airframe().actuators().used) return Result::failed;
+    if (command.param(1) <= parts.flight.plant().channels().used) return Result::failed;
     return parts.servos.set_pulse(command.param(1), command.param(2)) ? Result::accepted : Result::failed;
 }
 

@@ -351,6 +351,7 @@ NAV_DLL_ACT = 2
 [[vehicle]]
 autopilot = "ardupilot"
 count = 2
+body = {preset = "iris", mass = 1.7}
 [[endpoint]]
 url = "udpout://127.0.0.1:14550?name=station"
 streams = {VFR_HUD = 3}
@@ -368,6 +369,8 @@ def test_check_shows_the_values_of_a_scenario_with_their_origin(run, tmp_path):
     assert (found["streams", None, "ATTITUDE"]["value"], found["streams", None, "ATTITUDE"]["line"]) == ("20", 5)
     assert found["vehicle", "5", "home"]["value"] == "47.1,8.5,400,90"
     assert found["vehicle", "5", "battery"]["value"] == "capacity:3000,minutes:10"
+    assert found["vehicle", "5", "body"]["value"] == "standard"
+    assert found["vehicle", "6 to 7", "body"]["value"] == "mass:1.7,preset:iris"
     assert found["vehicle", "6 to 7", "system"]["value"] == "6"
     assert found["vehicle", "6 to 7", "kind"]["origin"] == "default"
     assert found["endpoint", "station", "streams"]["value"] == "VFR_HUD:3"
@@ -384,6 +387,9 @@ def test_check_shows_the_values_of_a_scenario_with_their_origin(run, tmp_path):
     ("[[vehicle]]\nhome = [1, 2, 'x']\n", "2: home: altitude: 'x' is not a number from -500 to 20000"),
     ("[[vehicle]]\n[vehicle.battery]\ncapacity = 5000\ncels = 3\n",
      "4: battery: 'cels' is none of capacity, cells, minutes, start, did you mean 'cells'?"),
+    ("[[vehicle]]\n[vehicle.body]\nmass = 1.5\nthrst = 3\n", "4: body: 'thrst' is none of "),
+    ("[[vehicle]]\n[vehicle.body]\nmass = 5\n", "2: body: its 4 motors lift 29.4 N, and it weighs 49.0 N"),
+    ("[[vehicle]]\nkind = 'plane'\nbody = 'iris'\n", "3: a body is for a quad"),
     ("[[vehicle]]\n[vehicle.parameters]\nNAV_DLL_ACT = 2\nNAV_DLL_AKT = 2\n",
      "4: a quad has no parameter 'NAV_DLL_AKT', did you mean 'NAV_DLL_ACT'?"),
     ("[[vehicle]]\nsystem = 3\n[[vehicle]]\nsystem = 3\n", "4: two vehicles have system id 3; each needs its own"),

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The plane alone, without a flight around it. Expected values come from the laws of flight, not from the model.
-#include "flight/physics/fixed_wing.hpp"
-
+// The plane and its pilot, without a flight around them. Expected values come from the laws of flight, not from the
+// model.
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <functional>
 
 #include "unit/flight/support/any_setpoint.hpp"
+#include "unit/flight/support/piloted.hpp"
 
 namespace mavloom::flight {
 namespace {
@@ -46,7 +46,7 @@ protected:
     [[nodiscard]] double ground_speed() const { return motion().velocity.head<2>().norm(); }
     [[nodiscard]] double distance_to_center() const { return (motion().position - setpoint.position).head<2>().norm(); }
 
-    FixedWing plane;
+    test::Piloted plane{Kind::plane};
     Setpoint setpoint;
     Surroundings around;
     bool armed = true;
@@ -294,8 +294,8 @@ TEST_F(FixedWingTest, AMixerWithoutDeflectionLeavesTheAttitudeAlone) {
     run(0.5);
 
     EXPECT_GT(euler().roll, 0.1);
-    EXPECT_NEAR(plane.actuators().outputs[0], 0.2, 1e-9);
-    EXPECT_TRUE(plane.actuators().is_motor[2]);
+    EXPECT_NEAR(plane.outputs()[0], 0.2, 1e-9);
+    EXPECT_TRUE(plane.channels().is_motor[2]);
 }
 
 TEST_F(FixedWingTest, WithoutMotorItGlidesDownAndComesToRest) {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The multicopter alone, without a flight around it.
-#include "flight/physics/multicopter/multicopter.hpp"
-
+// The multicopter and its pilot, without a flight around them.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 
 #include "flight/physics/noise.hpp"
 #include "unit/flight/support/any_setpoint.hpp"
+#include "unit/flight/support/piloted.hpp"
 
 namespace mavloom::flight {
 namespace {
@@ -38,7 +37,7 @@ protected:
     [[nodiscard]] const Kinematics& motion() const { return copter.motion(); }
     [[nodiscard]] double tilt() const { return std::acos((motion().attitude * Vector3::UnitZ()).z()); }
 
-    Multicopter copter;
+    test::Piloted copter{Kind::quad};
     Setpoint setpoint;
     Surroundings around;
     bool armed = true;
@@ -226,7 +225,7 @@ TEST_F(MulticopterTest, MixesMomentsIntoMotors) {
     const auto outputs = [&](std::array<double, 4> mixer) {
         setpoint.mixer = mixer;
         copter.step(setpoint, true, around);
-        const auto& o = copter.actuators().outputs;
+        const auto& o = copter.outputs();
         return std::array{o[0], o[1], o[2], o[3]};
     };
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The rover alone, without a flight around it.
-#include "flight/physics/rover.hpp"
-
+// The rover and its pilot, without a flight around them.
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <functional>
 
 #include "unit/flight/support/any_setpoint.hpp"
+#include "unit/flight/support/piloted.hpp"
 
 namespace mavloom::flight {
 namespace {
@@ -31,7 +30,7 @@ protected:
     [[nodiscard]] double yaw() const { return yaw_of(motion().attitude); }
     [[nodiscard]] double speed() const { return motion().velocity.norm(); }
 
-    Rover rover;
+    test::Piloted rover{Kind::rover};
     Setpoint setpoint;
     Surroundings around;
 };

@@ -29,7 +29,8 @@ struct Statistics {
     [[nodiscard]] double deviation() const { return std::sqrt(squares / static_cast<double>(count) - mean() * mean()); }
 };
 
-constexpr double zurich = 489.4;  // m
+constexpr double zurich = 489.4;        // m
+const Vector3 field{0.21, 0.01, 0.43};  // gauss, near there
 
 class SensorsTest : public ::testing::Test {
 protected:
@@ -40,7 +41,7 @@ protected:
         }
     }
 
-    Sensors sensors{true, 7};
+    Sensors sensors{true, 7, field};
     Kinematics truth;
     Vector3 air = Vector3::Zero();
     bool at_rest = false;
@@ -61,7 +62,7 @@ TEST_F(SensorsTest, AccelerometersOfALevelVehicleShowGravityUpwards) {
 }
 
 TEST_F(SensorsTest, AccelerometersShowTheSpecificForceInTheBodyFrame) {
-    Sensors quiet(false, 1);
+    Sensors quiet(false, 1, field);
     truth.attitude = to_quaternion({0, 0, pi / 2});
     truth.acceleration = {0, 3, 0};  // east, which is ahead
     quiet.step(truth, air, false, zurich, 1.2);
@@ -70,7 +71,7 @@ TEST_F(SensorsTest, AccelerometersShowTheSpecificForceInTheBodyFrame) {
 }
 
 TEST_F(SensorsTest, TheMagnetometerTurnsWithTheVehicle) {
-    Sensors quiet(false, 1);
+    Sensors quiet(false, 1, field);
     truth.attitude = to_quaternion({0, 0, pi / 2});
     quiet.step(truth, air, false, zurich, 1.2);
 
@@ -84,7 +85,7 @@ TEST_F(SensorsTest, TheBarometerFollowsTheStandardAtmosphere) {
     EXPECT_NEAR(pressure.mean(), 955.822, 0.003);
     EXPECT_NEAR(pressure.deviation(), 0.01, 0.002);
 
-    Sensors quiet(false, 1);
+    Sensors quiet(false, 1, field);
     truth.position.z() = -100;
     quiet.step(truth, air, false, zurich, 1.2);
     EXPECT_NEAR(quiet.imu().pressure_altitude, 589.4, 1e-6);
@@ -169,7 +170,7 @@ TEST_F(SensorsTest, FailuresRemoveTheSensor) {
 }
 
 TEST_F(SensorsTest, TheSameSeedGivesTheSameNoise) {
-    Sensors same(true, 7), other(true, 8);
+    Sensors same(true, 7, field), other(true, 8, field);
     for (int i = 0; i < 1000; ++i) {
         sensors.step(truth, air, false, zurich, 1.2);
         same.step(truth, air, false, zurich, 1.2);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "simserve/scenario/body.hpp"
 #include "simserve/values.hpp"
 
 namespace mavloom::simserve {
@@ -163,6 +164,42 @@ TEST(ScenarioValues, NumbersAreFiniteAndWhole) {
     EXPECT_FALSE(parse_pairs(":1"));
     EXPECT_FALSE(parse_battery("cells:15"));
     EXPECT_THAT(parse_battery("cells:15").error().text, HasSubstr("cells: 15 is not a number from 1 to 14"));
+}
+
+TEST(ScenarioValues, ABodyIsAPresetWithChanges) {
+    const auto iris = parse_body("iris");
+    ASSERT_TRUE(iris);
+    EXPECT_EQ(iris->mass_kg, 1.55);
+    EXPECT_EQ(iris->rotors[1].right_m, -0.2);
+
+    const auto heavy = parse_body("iris,mass:2");
+    ASSERT_TRUE(heavy);
+    EXPECT_EQ(heavy->mass_kg, 2);
+    EXPECT_EQ(heavy->rotors[1].right_m, -0.2);
+
+    const auto hexa = parse_body("arm:0.3,frame:hexa-x,inertia_z:0.2,preset:jmavsim,thrust:6");
+    ASSERT_TRUE(hexa);
+    EXPECT_EQ(hexa->rotor_count, 6);
+    EXPECT_NEAR(hexa->rotors[0].right_m, 0.3, 1e-12);
+    EXPECT_EQ(hexa->inertia_kg_m2[2], 0.2);
+    EXPECT_EQ(hexa->mass_kg, 0.8);
+    EXPECT_EQ(hexa->thrust_n, 6);
+}
+
+TEST(ScenarioValues, ABodyThatCannotFlyIsRefused) {
+    const auto error = [](std::string_view text) {
+        const auto body = parse_body(text);
+        return body ? "" : body.error().text;
+    };
+    EXPECT_THAT(error("mass:3"), HasSubstr("its 4 motors lift 29.4 N, and it weighs 29.4 N"));
+    EXPECT_THAT(error("thrust:100"), HasSubstr("27.2 times its weight"));
+    EXPECT_THAT(error("inertia_x:1"), HasSubstr("its motors tilt it by at most 3.12 rad/s^2"));
+    EXPECT_THAT(error("turn_drag:5"), HasSubstr("drag is too large"));
+    EXPECT_THAT(error("mass:0"), HasSubstr("mass: '0' is not a number from 0.05 to 500"));
+    EXPECT_THAT(error("irs"), HasSubstr("preset: 'irs' is none of standard, iris, jmavsim, did you mean 'iris'?"));
+    EXPECT_THAT(error("frame:hexa"), HasSubstr("frame: 'hexa' is none of quad-x"));
+    EXPECT_THAT(error("mas:2"), HasSubstr("did you mean 'mass'?"));
+    EXPECT_THAT(error("mass:2,iris"), HasSubstr("'iris' is not NAME:VALUE"));
 }
 
 }  // namespace

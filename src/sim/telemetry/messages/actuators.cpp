@@ -19,13 +19,13 @@ constexpr std::size_t escs_in_message = 4;
 // Pulse widths in us. A motor at rest gets 900 from PX4 and 1000 from ArduPilot. Channels without a motor or servo are
 // 900 and 0.
 std::array<std::uint16_t, servo_channels> pulse_widths(const View& view) noexcept {
-    const Actuators& actuators = view.flight.airframe().actuators();
+    const Channels& channels = view.flight.plant().channels();
     const bool is_px4 = view.firmware.is_px4();
     std::array<std::uint16_t, servo_channels> widths;
     widths.fill(is_px4 ? 900 : 0);
-    for (std::size_t i = 0; i < std::min<std::size_t>(actuators.used, Actuators::count); ++i) {
-        const double output = actuators.outputs[i];
-        if (!actuators.is_motor[i]) {
+    for (std::size_t i = 0; i < channels.used; ++i) {
+        const double output = view.flight.outputs()[i];
+        if (!channels.is_motor[i]) {
             widths[i] = saturated<std::uint16_t>(1500 + 500 * output);
         } else if (view.flight.armed()) {
             widths[i] = saturated<std::uint16_t>(1000 + 1000 * output);
@@ -34,7 +34,7 @@ std::array<std::uint16_t, servo_channels> pulse_widths(const View& view) noexcep
         }
     }
     if (view.servos != nullptr)
-        for (std::size_t i = actuators.used; i < servo_channels; ++i)
+        for (std::size_t i = channels.used; i < servo_channels; ++i)
             if (const std::uint16_t set = view.servos->pulses()[i]; set != 0) widths[i] = set;
     return widths;
 }
@@ -55,22 +55,22 @@ struct Motors {
     std::uint8_t count = 0;
 };
 Motors motors_of(const View& view) noexcept {
-    const Actuators& actuators = view.flight.airframe().actuators();
+    const Channels& channels = view.flight.plant().channels();
     Motors motors;
-    for (std::size_t i = 0; i < Actuators::count && motors.count < escs_in_message; ++i)
-        if (i < actuators.used && actuators.is_motor[i]) motors.outputs[motors.count++] = actuators.outputs[i];
+    for (std::size_t i = 0; i < channels.used && motors.count < escs_in_message; ++i)
+        if (channels.is_motor[i]) motors.outputs[motors.count++] = view.flight.outputs()[i];
     return motors;
 }
 
 // Roll, pitch, yaw (-1 to 1) and thrust (0 to 1) behind the outputs of a quadrotor in X form: front right, rear left,
 // front left, rear right. The first two motors turn counter-clockwise.
-std::array<double, 4> quad_controls(const std::array<double, Actuators::count>& o) noexcept {
+std::array<double, 4> quad_controls(const Outputs& o) noexcept {
     return {(o[1] + o[2] - o[0] - o[3]) / 4, (o[0] + o[2] - o[1] - o[3]) / 4, (o[0] + o[1] - o[2] - o[3]) / 4,
             (o[0] + o[1] + o[2] + o[3]) / 4};
 }
 
 // A plane has ailerons, elevator, throttle and rudder, a rover throttle and steering.
-std::array<double, 4> controls_of(Kind kind, const std::array<double, Actuators::count>& o) noexcept {
+std::array<double, 4> controls_of(Kind kind, const Outputs& o) noexcept {
     switch (kind) {
         case Kind::quad: return quad_controls(o);
         case Kind::plane: return {o[0], o[1], o[3], o[2]};
@@ -94,16 +94,15 @@ bool write_servo_output_raw(const View& view, ByteSpan payload) {
 
 bool write_actuator_control_target(const View& view, ByteSpan payload) {
     msg::ActuatorControlTarget message{.time_usec = boot_us(view)};
-    const auto controls = controls_of(view.options.kind, view.flight.airframe().actuators().outputs);
+    const auto controls = controls_of(view.options.kind, view.flight.outputs());
     if (view.flight.armed()) std::ranges::transform(controls, message.controls.begin(), as_float);
     return put(message, payload);
 }
 
 bool write_actuator_output_status(const View& view, ByteSpan payload) {
-    const Actuators& actuators = view.flight.airframe().actuators();
-    const std::size_t used = std::min<std::size_t>(actuators.used, Actuators::count);
+    const std::size_t used = view.flight.plant().channels().used;
     msg::ActuatorOutputStatus message{.time_usec = boot_us(view), .active = (1u << used) - 1};
-    for (std::size_t i = 0; i < used; ++i) message.actuator[i] = as_float(actuators.outputs[i]);
+    for (std::size_t i = 0; i < used; ++i) message.actuator[i] = as_float(view.flight.outputs()[i]);
     return put(message, payload);
 }
 

@@ -86,7 +86,7 @@ bool write_hil_state_quaternion(const View& view, ByteSpan payload) {
     const Kinematics& truth = view.flight.truth();
     const GeoPoint position = view.flight.frame().to_geo(truth.position);
     const Vector3 force = truth.attitude.conjugate() * (truth.acceleration - Vector3(0, 0, gravity));
-    const auto airspeed = saturated<std::uint16_t>(view.flight.airframe().air_velocity().norm() * 100);
+    const auto airspeed = saturated<std::uint16_t>(view.flight.plant().air_velocity().norm() * 100);
     const auto milli_g = [](double m_s2) { return saturated<std::int16_t>(m_s2 / gravity * 1e3); };
     return put(msg::HilStateQuaternion{.time_usec = boot_us(view),
                                        .attitude_quaternion = quaternion_on_wire(truth.attitude),

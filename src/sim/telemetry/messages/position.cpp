@@ -13,7 +13,7 @@ namespace mavloom::sim {
 // A multicopter or rover has no airspeed sensor; it reports its ground speed, so that displays show a number.
 double airspeed_of(const View& view) noexcept {
     const Vector3& velocity = view.flight.estimate().velocity;
-    if (view.options.kind == Kind::plane) return view.flight.airframe().air_velocity().norm();
+    if (view.options.kind == Kind::plane) return view.flight.plant().air_velocity().norm();
     return std::hypot(velocity.x(), velocity.y());
 }
 
@@ -85,7 +85,7 @@ bool write_vfr_hud(const View& view, ByteSpan payload) {
     return put(msg::VfrHud{.airspeed = as_float(airspeed_of(view)),
                            .groundspeed = as_float(std::hypot(velocity.x(), velocity.y())),
                            .heading = static_cast<std::int16_t>(to_whole_degrees(flight.estimate().heading)),
-                           .throttle = saturated<std::uint16_t>(flight.armed() ? 100 * flight.airframe().thrust() : 0),
+                           .throttle = saturated<std::uint16_t>(flight.armed() ? 100 * flight.plant().thrust() : 0),
                            .alt = as_float(flight.position().altitude),
                            .climb = as_float(-velocity.z())},
                payload);

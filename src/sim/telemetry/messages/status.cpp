@@ -194,7 +194,7 @@ bool write_high_latency2(const View& view, ByteSpan payload) {
                          .autopilot = view.firmware.mav_autopilot(),
                          .custom_mode = static_cast<std::uint16_t>(view.firmware.is_px4() ? mode >> 16 : mode),
                          .heading = to_half_degrees(flight.estimate().heading),
-                         .throttle = saturated<std::uint8_t>(flight.armed() ? 100 * flight.airframe().thrust() : 0),
+                         .throttle = saturated<std::uint8_t>(flight.armed() ? 100 * flight.plant().thrust() : 0),
                          .airspeed = to_fifths(airspeed_of(view)),
                          .groundspeed = to_fifths(std::hypot(velocity.x(), velocity.y())),
                          .windspeed = to_fifths(std::hypot(flight.wind().x(), flight.wind().y())),

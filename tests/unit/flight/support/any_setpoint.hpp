@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Set-points made of numbers that no airframe expects, because clients may send any.
+// Set-points made of numbers that no pilot expects, because clients may send any.
 #pragma once
 
 #include <array>
 #include <limits>
 
-#include "flight/physics/airframe.hpp"
+#include "flight/physics/random.hpp"
+#include "flight/pilot/pilot.hpp"
 
 namespace mavloom::flight::test {
 

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "simserve/scenario/body.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mavloom/base/shown.hpp"
+#include "mavloom/dialect/terms.hpp"
+#include "simserve/values.hpp"
+
+namespace mavloom::simserve {
+
+namespace {
+
+using sim::CopterBody;
+
+tl::unexpected<SetupError> body_error(std::string text) { return setup_error(SetupCode::usage, std::move(text)); }
+
+// A key that sets one number of the body.
+struct Number {
+    std::string_view name;
+    Range range;
+    double& (*of)(CopterBody&);
+};
+constexpr Range share{0, 1}, lag{0, 0.06}, any_drag{0, 100}, any_inertia{1e-5, 100};
+constexpr std::array numbers{
+    Number{"mass", {0.05, 500}, [](CopterBody& b) -> double& { return b.mass_kg; }},
+    Number{"inertia_x", any_inertia, [](CopterBody& b) -> double& { return b.inertia_kg_m2[0]; }},
+    Number{"inertia_y", any_inertia, [](CopterBody& b) -> double& { return b.inertia_kg_m2[1]; }},
+    Number{"inertia_z", any_inertia, [](CopterBody& b) -> double& { return b.inertia_kg_m2[2]; }},
+    Number{"thrust", {0.01, 10'000}, [](CopterBody& b) -> double& { return b.thrust_n; }},
+    Number{"moment_ratio", {0.001, 1}, [](CopterBody& b) -> double& { return b.moment_ratio_m; }},
+    Number{"spin_up", lag, [](CopterBody& b) -> double& { return b.spin_up_s; }},
+    Number{"spin_down", lag, [](CopterBody& b) -> double& { return b.spin_down_s; }},
+    Number{"curve", share, [](CopterBody& b) -> double& { return b.curve; }},
+    Number{"idle", {0, 0.3}, [](CopterBody& b) -> double& { return b.idle; }},
+    Number{"drag", any_drag, [](CopterBody& b) -> double& { return b.drag; }},
+    Number{"square_drag", any_drag, [](CopterBody& b) -> double& { return b.square_drag; }},
+    Number{"rotor_drag", any_drag, [](CopterBody& b) -> double& { return b.rotor_drag; }},
+    Number{"turn_drag", any_drag, [](CopterBody& b) -> double& { return b.turn_drag; }},
+};
+constexpr Range arm_range{0.02, 10};  // m
+
+using Part = std::pair<std::string_view, std::string_view>;
+
+// The parts of the text in their order. A first part without a name is the preset's.
+SetupResult<std::vector<Part>> parts_of(std::string_view text) {
+    std::vector<Part> parts;
+    const auto add = [&](std::string_view term) -> SetupResult<void> {
+        const auto colon = term.find(':');
+        if (colon == std::string_view::npos && !parts.empty())
+            return body_error(fmt::format("{} is not NAME:VALUE", in_quotes(term)));
+        if (colon == std::string_view::npos) parts.emplace_back("preset", term);
+        else parts.emplace_back(term.substr(0, colon), term.substr(colon + 1));
+        return {};
+    };
+    if (auto done = dialect::for_each_term(text, add); !done) return tl::unexpected(std::move(done.error()));
+    return parts;
+}
+
+std::optional<std::string_view> find(const std::vector<Part>& parts, std::string_view name) {
+    const auto part = std::ranges::find(parts, name, &Part::first);
+    return part == parts.end() ? std::nullopt : std::optional(part->second);
+}
+
+SetupResult<CopterBody> preset_of(const std::vector<Part>& parts) {
+    const auto name = find(parts, "preset");
+    if (!name) return CopterBody{};
+    const auto index = parse_choice(*name, sim::body_names);
+    if (!index) return tl::unexpected(SetupError(index.error()).within("preset"));
+    return body_of(static_cast<sim::BodyPreset>(*index));
+}
+
+SetupResult<void> place_rotors(CopterBody& body, const std::vector<Part>& parts) {
+    const auto frame = find(parts, "frame"), arm = find(parts, "arm");
+    if (!frame && !arm) return {};
+    const auto index = parse_choice(frame.value_or(sim::frame_names[0]), sim::frame_names);
+    if (!index) return tl::unexpected(SetupError(index.error()).within("frame"));
+    double length = arm_of(body);
+    if (arm) {
+        const auto value = parse_number(*arm, arm_range);
+        if (!value) return tl::unexpected(SetupError(value.error()).within("arm"));
+        length = *value;
+    }
+    set_frame(body, static_cast<sim::Frame>(*index), length);
+    return {};
+}
+
+SetupResult<void> set_numbers(CopterBody& body, const std::vector<Part>& parts) {
+    std::vector<std::string_view> names{"preset", "frame", "arm"};
+    for (const Number& number : numbers) names.push_back(number.name);
+    for (const auto& [name, text] : parts) {
+        const auto known = parse_choice(name, names);
+        if (!known) return tl::unexpected(known.error());
+        if (*known < 3) continue;
+        const Number& number = numbers[*known - 3];
+        const auto value = parse_number(text, number.range);
+        if (!value) return tl::unexpected(SetupError(value.error()).within(number.name));
+        number.of(body) = *value;
+    }
+    return {};
+}
+
+// The steps of 4 ms are short against every motion of the body, and its motors can carry and turn it.
+SetupResult<void> check_body(const CopterBody& body) {
+    constexpr double gravity = 9.80665, fastest = 100, slowest_turn = 5;  // m/s^2, 1/s, rad/s^2
+    const auto rotors = static_cast<double>(body.rotor_count);
+    const double lift = rotors * body.thrust_n, weight = body.mass_kg * gravity;
+    if (lift < 1.2 * weight)
+        return body_error(fmt::format(
+            "its {} motors lift {:.1f} N, and it weighs {:.1f} N; more thrust or less mass, so that it can climb",
+            body.rotor_count, lift, weight));
+    if (lift > 20 * weight)
+        return body_error(fmt::format("its motors lift {:.1f} times its weight; 20 times is the most", lift / weight));
+    const double drag = body.drag + body.rotor_drag * rotors + body.square_drag * fastest;
+    const double lightest = *std::ranges::min_element(body.inertia_kg_m2);
+    if (drag > fastest * body.mass_kg || body.turn_drag > fastest * lightest)
+        return body_error("its drag is too large for its mass and inertia");
+    const double tilting = lift * arm_of(body) / (2 * std::max(body.inertia_kg_m2[0], body.inertia_kg_m2[1]));
+    if (tilting < slowest_turn)
+        return body_error(fmt::format(
+            "its motors tilt it by at most {:.2f} rad/s^2, too little to fly; less inertia or longer arms", tilting));
+    return {};
+}
+
+}  // namespace
+
+SetupResult<sim::CopterBody> parse_body(std::string_view text) {
+    const auto parts = parts_of(text);
+    if (!parts) return tl::unexpected(parts.error());
+    auto body = preset_of(*parts);
+    if (!body) return body;
+    if (auto done = place_rotors(*body, *parts); !done) return tl::unexpected(std::move(done.error()));
+    if (auto done = set_numbers(*body, *parts); !done) return tl::unexpected(std::move(done.error()));
+    if (auto done = check_body(*body); !done) return tl::unexpected(std::move(done.error()));
+    return body;
+}
+
+}  // namespace mavloom::simserve
