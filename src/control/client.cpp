@@ -68,24 +68,30 @@ Exchange exchange(const std::filesystem::path& path, std::string_view request, s
     return done;
 }
 
-bool is_served(const std::filesystem::path& path) {
+enum class Presence : std::uint8_t { absent, busy, here };
+
+// A program that is busy may not accept now; this does not wait for it.
+Presence presence_of(const std::filesystem::path& path) {
     asio::io_context context;
     Local::socket socket(context);
     error_code error;
     socket.open(Local(), error);
     if (!error) socket.non_blocking(true, error);
-    if (error) return false;
-    // A program that is busy may not accept now; do not wait for it.
+    if (error) return Presence::absent;
     const Local::endpoint to(path.string());
-    return ::connect(socket.native_handle(), to.data(), static_cast<socklen_t>(to.size())) == 0 || errno == EAGAIN;
+    if (::connect(socket.native_handle(), to.data(), static_cast<socklen_t>(to.size())) == 0) return Presence::here;
+    return errno == EAGAIN ? Presence::busy : Presence::absent;
 }
 
-// Only a simulator knows the request.
-std::string_view kind_of(const std::filesystem::path& path) {
+// Only a simulator knows the request. A program that turns clients away may be either.
+std::string_view kind_of(const std::filesystem::path& path, Presence presence) {
     constexpr std::chrono::milliseconds limit{300};
+    if (presence == Presence::busy) return "busy";
     const auto done = exchange(path, R"({"cmd":"state"})", limit);
     if (!done.answer) return "busy";
-    return answer_of(*done.answer) ? "simulator" : "router";
+    const auto lines = answer_of(*done.answer);
+    if (lines) return "simulator";
+    return lines.error().text.starts_with("there is no command") ? "router" : "busy";
 }
 
 // The programs whose control sockets are in the folder.
@@ -93,8 +99,9 @@ std::vector<std::string> programs_in(const std::filesystem::path& folder) {
     std::vector<std::string> names;
     std::error_code failed;
     for (std::filesystem::directory_iterator file(folder, failed), end; !failed && file != end; file.increment(failed))
-        if (file->path().extension() == ".ctl" && is_served(file->path()))
-            names.push_back(fmt::format("{} ({})", file->path().stem().string(), kind_of(file->path())));
+        if (const auto& path = file->path(); path.extension() == ".ctl")
+            if (const auto presence = presence_of(path); presence != Presence::absent)
+                names.push_back(fmt::format("{} ({})", path.stem().string(), kind_of(path, presence)));
     std::ranges::sort(names);
     return names;
 }

@@ -109,6 +109,7 @@ const std::vector<Layout>& layouts() {
           {"SKIPPED", "skipped", Form::count, 3},
           {"LATE 99 %, MS", "jitter_p99_ms", Form::tenths, 5},
           {"LINK", "link", Form::text, 6}}},
+        {"clock", {{"FLIGHT, S", "flight_s", Form::hundredths}, {"PAUSED", "paused", Form::yes}}},
         {"parameter",
          {{"VEHICLE", "system", Form::count}, {"PARAMETER", "name", Form::text}, {"VALUE", "value", Form::text}}}};
     return all;
@@ -166,9 +167,9 @@ std::string cell_of(const Json& object, const Shown& shown) {
 }
 
 std::string rest_of(const Json& object, const Layout& layout) {
-    std::vector<std::string_view> shown{"forwarded", "queue_limit_bytes"};
+    std::vector<std::string_view> shown{"queue_limit_bytes"};
+    if (layout.kind != "gone") shown.push_back("forwarded");
     for (const auto& column : layout.columns) shown.push_back(column.key);
-    if (layout.kind == "gone") std::erase(shown, "forwarded");
     auto rest = nonzero(object, shown);
     const std::string faults = object.value("faults", "off");
     if (faults == "off") return rest;
@@ -198,11 +199,18 @@ TextTable table_of(const std::vector<Json>& objects, const Layout& layout) {
     return table;
 }
 
+// ", flight clock at 62.4 s (paused)"
+std::string flight_text(const Json& sim) {
+    if (!sim.contains("flight_s")) return {};
+    return fmt::format(", flight clock at {:.1f} s{}", sim.value("flight_s", 0.0),
+                       sim.value("paused", false) ? " (paused)" : "");
+}
+
 // "router: up 12 s, heartbeats_sent 12".
 std::string line_of_program(const Json& object) {
     const auto counts = nonzero(object, {});
-    return fmt::format("{}: up {:.0f} s{}{}", object.value("kind", ""), object.value("uptime_s", 0.0),
-                       counts.empty() ? "" : ", ", counts);
+    return fmt::format("{}: up {:.0f} s{}{}{}", object.value("kind", ""), object.value("uptime_s", 0.0),
+                       flight_text(object), counts.empty() ? "" : ", ", counts);
 }
 
 }  // namespace

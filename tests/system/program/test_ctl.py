@@ -60,6 +60,12 @@ def test_the_vehicles_are_a_table_too(ctl, names):
     assert shown[:2] == ["VEHICLE  PARAMETER        VALUE", "      1  MIS_TAKEOFF_ALT  2.5"]
 
 
+def test_the_flight_clock_is_a_table_too(ctl, names):
+    shown = lines(ctl(names[1], "pause"))
+    assert shown[0].split() == ["FLIGHT,", "S", "PAUSED"] and re.match(r" +\d+\.\d+ +yes$", shown[1]), shown
+    assert re.match(r"sim: up \d+ s, flight clock at \d+\.\d s \(paused\), ", lines(ctl(names[1], "stats"))[0])
+
+
 def test_an_empty_answer_is_a_sentence(ctl, spawn, run, udp_port):
     name = f"ctl-empty-{os.getpid()}"
     spawn("route", f"udpin://127.0.0.1:{udp_port()}", "--name", name)
