@@ -16,8 +16,8 @@
 #include "simserve/flight_clock.hpp"
 #include "simserve/flight_recording.hpp"
 #include "simserve/link_sink.hpp"
+#include "simserve/scenario/time_line.hpp"
 #include "simserve/shared_memory.hpp"
-#include "simserve/time_line.hpp"
 
 namespace mavloom::simserve {
 

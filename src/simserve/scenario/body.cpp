@@ -13,7 +13,7 @@
 
 #include "mavloom/base/shown.hpp"
 #include "mavloom/dialect/terms.hpp"
-#include "simserve/values.hpp"
+#include "simserve/scenario/values.hpp"
 
 namespace mavloom::simserve {
 

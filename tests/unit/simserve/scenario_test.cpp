@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "simserve/scenario/body.hpp"
-#include "simserve/values.hpp"
+#include "simserve/scenario/values.hpp"
 
 namespace mavloom::simserve {
 namespace {

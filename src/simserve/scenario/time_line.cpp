@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "simserve/time_line.hpp"
+#include "simserve/scenario/time_line.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,7 +11,7 @@
 #include "mavloom/base/shown.hpp"
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/endpoint/grammar.hpp"
-#include "simserve/values.hpp"
+#include "simserve/scenario/values.hpp"
 
 namespace mavloom::simserve {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "simserve/keys.hpp"
+#include "simserve/scenario/keys.hpp"
 
 #include <fmt/format.h>
 
@@ -13,8 +13,8 @@
 #include "mavloom/config/keys.hpp"
 #include "mavloom/endpoint/grammar.hpp"
 #include "simserve/scenario/body.hpp"
-#include "simserve/time_line.hpp"
-#include "simserve/values.hpp"
+#include "simserve/scenario/time_line.hpp"
+#include "simserve/scenario/values.hpp"
 
 namespace mavloom::simserve {
 

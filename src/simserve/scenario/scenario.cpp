@@ -12,9 +12,9 @@
 #include "mavloom/base/shown.hpp"
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/endpoint/grammar.hpp"
-#include "simserve/keys.hpp"
-#include "simserve/time_line.hpp"
-#include "simserve/values.hpp"
+#include "simserve/scenario/keys.hpp"
+#include "simserve/scenario/time_line.hpp"
+#include "simserve/scenario/values.hpp"
 
 namespace mavloom::simserve {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "simserve/values.hpp"
+#include "simserve/scenario/values.hpp"
 
 #include <fmt/format.h>
 
