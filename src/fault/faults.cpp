@@ -61,66 +61,63 @@ private:
     Chain chain_;
 };
 
-link::CreateStages create_for(Plan plan, std::string label) {
-    return [plan = std::move(plan), label = std::move(label), ordinal = std::uint64_t{0}](
-               const link::StageSite& site) mutable { return stages_of(plan, label, ordinal++, site); };
-}
+// Creates the stages of a plan. Links keeps it, so that a change finds the plan again.
+struct Maker {
+    Plan plan;
+    std::string label;
+    [[nodiscard]] link::Stages operator()(const link::StageSite& site) const { return stages_of(plan, label, site); }
+};
 
 std::string shown_text(const endpoint::Faults& faults) { return faults.any() ? faults.text : "off"; }
 
-// "" is no faults.
 SetupResult<endpoint::Faults> parse(std::string_view text, const endpoint::Endpoint& endpoint) {
-    if (text.empty()) return endpoint::Faults{};
     auto faults = endpoint::parse_faults(text);
     if (!faults) return faults;
     if (auto good = endpoint::check_faults(*faults, endpoint.row()); !good) return tl::unexpected(good.error());
     return faults;
 }
 
-SetupResult<Plan> parse(const Change& change, const endpoint::Endpoint& endpoint) {
-    Plan plan;
-    plan.seed = endpoint.options.fault_seed.value_or(1);
-    if (!change.seed.empty())
-        if (auto done = endpoint::put(endpoint::parse_fault_seed(change.seed), plan.seed); !done)
+SetupResult<void> apply(const Change& change, const endpoint::Endpoint& endpoint, Plan& plan) {
+    if (!change.in && !change.out)
+        return endpoint::usage("faults for 'in', 'out' or both are missing; 'off' ends them");
+    if (change.seed)
+        if (auto done = endpoint::put(endpoint::parse_fault_seed(*change.seed), plan.seed); !done)
             return tl::unexpected(std::move(done.error()).within("seed"));
-    auto in = parse(change.in, endpoint), out = parse(change.out, endpoint);
-    if (!in) return tl::unexpected(std::move(in.error()));
-    if (!out) return tl::unexpected(std::move(out.error()));
-    plan.in = std::move(*in);
-    plan.out = std::move(*out);
-    return plan;
-}
-
-// How many links of the same endpoint came before this one and are still there.
-std::uint64_t ordinal_of(const link::LinkInfo& link, const std::vector<link::LinkInfo>& all) {
-    return static_cast<std::uint64_t>(std::ranges::count_if(
-        all, [&](const link::LinkInfo& other) { return other.endpoint == link.endpoint && other.id < link.id; }));
+    if (change.in)
+        if (auto done = endpoint::put(parse(*change.in, endpoint), plan.in); !done) return done;
+    return change.out ? endpoint::put(parse(*change.out, endpoint), plan.out) : SetupResult<void>{};
 }
 
 // An endpoint, or one of its links.
 struct Place {
     link::EndpointInfo endpoint;
     std::optional<LinkId> link;
-    std::uint64_t ordinal = 0;
 };
 
 std::optional<Place> find(const link::Links& links, std::string_view name) {
     const auto endpoints = links.endpoints();
     for (const auto& endpoint : endpoints)
-        if (endpoint.label() == name || endpoint.endpoint.label() == name) return Place{endpoint, {}, 0};
+        if (endpoint.label() == name || endpoint.endpoint.label() == name) return Place{endpoint, {}};
     const auto all = links.links();
     const auto link = std::ranges::find(all, name, &link::LinkInfo::name);
     if (link == all.end()) return std::nullopt;
     const auto endpoint = std::ranges::find(endpoints, link->endpoint, &link::EndpointInfo::id);
     if (endpoint == endpoints.end()) return std::nullopt;
-    return Place{*endpoint, link->id, ordinal_of(*link, all)};
+    return Place{*endpoint, link->id};
+}
+
+// Without faults, the seed is that of the endpoint's options.
+Plan plan_at(const link::Links& links, const Place& place) {
+    const auto* const by = place.link ? links.stages_by(*place.link) : links.stages_by(place.endpoint.id);
+    const Maker* const maker = by == nullptr ? nullptr : by->target<Maker>();
+    if (maker != nullptr && maker->plan.any()) return maker->plan;
+    return {.in = {}, .out = {}, .seed = place.endpoint.endpoint.options.fault_seed.value_or(1)};
 }
 
 bool put_stages(link::Links& links, const Place& place, const Plan& plan) {
-    const std::string label = place.endpoint.endpoint.label();
-    if (!place.link) return links.set_stages(place.endpoint.id, plan.any() ? create_for(plan, label) : nullptr);
-    return links.set_stages(*place.link,
-                            [&](const link::StageSite& site) { return stages_of(plan, label, place.ordinal, site); });
+    const Maker maker{plan, place.endpoint.endpoint.label()};
+    if (place.link) return links.set_stages(*place.link, maker);
+    return links.set_stages(place.endpoint.id, plan.any() ? link::CreateStages(maker) : nullptr);
 }
 
 }  // namespace
@@ -136,9 +133,9 @@ Plan plan_of(const endpoint::EndpointOptions& options) {
     return {endpoint::inward_faults(options), endpoint::outward_faults(options), options.fault_seed.value_or(1)};
 }
 
-link::Stages stages_of(const Plan& plan, std::string_view label, std::uint64_t ordinal, const link::StageSite& site) {
+link::Stages stages_of(const Plan& plan, std::string_view label, const link::StageSite& site) {
     if (!plan.any()) return {};
-    const Seed seed = Seed(plan.seed).with(label).with(ordinal);
+    const Seed seed = Seed(plan.seed).with(label).with(site.ordinal);
     link::Stages stages;
     stages.in = ChainMaker(seed, site, "in").make(plan.in);
     stages.out = ChainMaker(seed, site, "out").make(plan.out);
@@ -153,7 +150,7 @@ SetupResult<link::EndpointId> add(link::Links& links, const endpoint::Endpoint& 
     auto id = links.add(endpoint, dialect);
     const Plan plan = plan_of(endpoint.options);
     if (!id || !plan.any()) return id;
-    links.set_stages(*id, create_for(plan, endpoint.label()));
+    links.set_stages(*id, Maker{plan, endpoint.label()});
     links.report(*id, fmt::format("{}: faults on purpose: {}", endpoint.label(), plan.text()));
     return id;
 }
@@ -162,11 +159,12 @@ SetupResult<std::string> change(link::Links& links, std::string_view name, const
     const auto place = find(links, name);
     if (!place)
         return setup_error(SetupCode::usage, fmt::format("there is no endpoint or link {}", endpoint::in_quotes(name)));
-    auto plan = parse(change, place->endpoint.endpoint);
-    if (!plan) return tl::unexpected(std::move(plan.error()));
-    if (!put_stages(links, *place, *plan))
+    Plan plan = plan_at(links, *place);
+    if (auto done = apply(change, place->endpoint.endpoint, plan); !done)
+        return tl::unexpected(std::move(done.error()));
+    if (!put_stages(links, *place, plan))
         return setup_error(SetupCode::usage, fmt::format("{} is a ring, which has no faults", name));
-    return plan->text();
+    return plan.text();
 }
 
 }  // namespace mavloom::fault

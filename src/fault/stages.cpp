@@ -41,6 +41,10 @@ void CutIntoFrames::take(const Piece& piece, MonoTime now, Next& next) noexcept 
     });
 }
 
+void CutIntoFrames::tick(MonoTime now, WallTime time, Next& next) noexcept {
+    pass_decided({.bytes = {}, .time = time}, next, [&](auto&& sink) { parser_.tick(now, sink); });
+}
+
 void CutIntoFrames::finish(WallTime time, Next& next) noexcept {
     if (!bytes_.empty()) next.pass({.bytes = bytes_, .time = time});
     bytes_.clear();

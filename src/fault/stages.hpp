@@ -33,11 +33,14 @@ private:
     std::optional<MonoTime> begin_;
 };
 
-// Cuts what a stream reads into frames, and what lies between them. The rest of a read waits for the next one.
+// Cuts what a stream reads into frames, and what lies between them. The rest of a read waits for the next one; in
+// silence, as long as the parser of a stream waits.
 class CutIntoFrames final : public link::Stage {
 public:
     explicit CutIntoFrames(const wire::MessageTable& table) : parser_(table) {}
     void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
+    [[nodiscard]] std::optional<MonoTime> tick_due() const noexcept override { return parser_.deadline(); }
+    void tick(MonoTime now, WallTime time, Next& next) noexcept override;
     void finish(WallTime time, Next& next) noexcept override;
 
 private:

@@ -87,6 +87,7 @@ struct Link {
     LinkId id;  // Core::add_link sets this, `dialect` and `rank`
     const LinkDialect* dialect = nullptr;
     EndpointId endpoint;
+    std::uint64_t ordinal = 0;  // StageSite::ordinal; Core::add_link sets it
     Rank rank = Rank::own;
     std::string name;
     bool up = false;

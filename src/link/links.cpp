@@ -132,6 +132,7 @@ void Links::remove(EndpointId endpoint) {
     assert(core_->events.handler() == nullptr && "remove must not be called inside a callback");
     core_->endpoints.remove(endpoint);
     core_->stages.erase(endpoint);
+    core_->links_added.erase(endpoint);
     core_->dialects.forget(endpoint);
     core_->coalescing.allow(!core_->endpoints.any_low_latency());
 }
@@ -153,6 +154,16 @@ bool Links::set_stages(LinkId link, const CreateStages& create) {
     const bool may = found != nullptr && may_have_stages(core_->endpoints.find(found->endpoint));
     if (may) core_->set_stages(*found, create);
     return may;
+}
+
+const CreateStages* Links::stages_by(EndpointId endpoint) const noexcept {
+    const auto found = core_->stages.find(endpoint);
+    return found == core_->stages.end() ? nullptr : &found->second;
+}
+
+const CreateStages* Links::stages_by(LinkId link) const noexcept {
+    const Link* const found = core_->links.find(link);
+    return found == nullptr || !found->border || !found->border->made_by() ? nullptr : &found->border->made_by();
 }
 
 void Links::report(EndpointId endpoint, std::string text) { core_->events.notice(endpoint, std::move(text)); }

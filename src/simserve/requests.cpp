@@ -8,10 +8,10 @@
 #include <optional>
 #include <utility>
 
+#include "control/fault_request.hpp"
 #include "control/json_request.hpp"
 #include "mavloom/base/shown.hpp"
 #include "mavloom/base/suggest.hpp"
-#include "mavloom/fault/faults.hpp"
 #include "mavloom/simserve/report.hpp"
 
 namespace mavloom::simserve {
@@ -178,14 +178,9 @@ Report step(Simulator& simulator, const Json& request) {
     return report_clock(simulator);
 }
 
-// Replaces the faults of an endpoint or link.
 Report fault_links(Simulator& simulator, const Json& request) {
-    const auto name = text_at(request, "name");
-    const auto now = fault::change(simulator.links(), name,
-                                   {text_at(request, "in"), text_at(request, "out"), text_at(request, "seed")});
-    if (!now) return failed(now.error().text);
-    simulator.notify(config::LogLevel::info, fmt::format("{}: faults set by ctl: {}", name, *now));
-    return control::succeeded();
+    return control::set_faults(simulator.links(), request,
+                               [&](const std::string& text) { simulator.notify(config::LogLevel::info, text); });
 }
 
 using Command = control::Command<Simulator>;

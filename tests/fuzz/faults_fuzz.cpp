@@ -41,8 +41,8 @@ void run(const endpoint::Faults& faults, ByteView bytes) {
     link::LinkCounters counters;
     fault::Plan plan;
     plan.out = faults;
-    auto stages = fault::stages_of(plan, "fuzz", 0,
-                                   {LinkId{1}, "fuzz", true, counters, dialect::default_dialect().wire_table()});
+    auto stages = fault::stages_of(plan, "fuzz",
+                                   {LinkId{1}, "fuzz", true, 0, counters, dialect::default_dialect().wire_table()});
     std::uint64_t sent = 0, arrived = 0;
     for (MonoTime now{std::chrono::hours(1)}; sent < 200; ++sent, now += std::chrono::milliseconds(10))
         Chain(stages, 0, now, arrived).pass({.bytes = bytes.first(1 + sent % bytes.size())});

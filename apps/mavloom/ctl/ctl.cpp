@@ -124,9 +124,12 @@ SetupResult<void> add_faults(const CtlOptions& options, const Action& action, Js
         return setup_error(SetupCode::usage,
                            "fault takes faults for both directions, as in fault NAME loss:0.1, or "
                            "those of each: fault NAME --in loss:0.1 --out delay:80ms");
-    request["in"] = both.empty() ? options.in : both;
-    request["out"] = both.empty() ? options.out : both;
-    request["seed"] = options.seed;
+    const auto put = [&](const char* key, const std::string& text) {
+        if (!text.empty()) request[key] = text;
+    };
+    put("in", both.empty() ? options.in : both);
+    put("out", both.empty() ? options.out : both);
+    put("seed", options.seed);
     return {};
 }
 

@@ -4,7 +4,7 @@
 //
 // The same seed and the same pieces at the same times meet the same faults. Every fault of every direction of every
 // link draws from a random stream of its own. The stream depends on the seed, on the name of the endpoint, and on how
-// many links the endpoint had before this one.
+// many links the endpoint had before this one, those that are gone included.
 //
 // Call these functions on the thread that owns the Links object, outside callbacks. The stages count each fault in
 // link::LinkCounters. A link without faults costs nothing.
@@ -36,13 +36,14 @@ struct Plan {
 };
 [[nodiscard]] Plan plan_of(const endpoint::EndpointOptions& options);
 
-// A request of `mavloom ctl NAME fault`: the specifications of both directions (empty: no faults), and the seed (empty:
-// the one of the endpoint).
+// A request of `mavloom ctl NAME fault`: the specifications of one or both directions, and the seed. A missing one
+// stays as it is.
 struct Change {
-    std::string in, out, seed;
+    std::optional<std::string> in{}, out{}, seed{};
 };
-// Replaces the faults of an endpoint's links, present and future ones, or of one link, by its name. Returns what it has
-// now. Errors are `usage`: a wrong specification, no such link, or a ring.
+// Replaces the faults of an endpoint's links, present and future ones, or of one link, by its name. All links of an
+// endpoint then have the same faults, whatever one of them had. Returns what it has now. Errors are `usage`: a wrong
+// specification, none for either direction, no such link, or a ring.
 [[nodiscard]] SetupResult<std::string> change(link::Links& links, std::string_view name, const Change& change);
 
 // From now on, links that get faults write a line to this file for each fault that happens (docs/guide/faults.md). It
@@ -50,8 +51,7 @@ struct Change {
 // An empty path: no log.
 [[nodiscard]] SetupResult<void> log_to(const std::string& path);
 
-// The stages for link number `ordinal` of the endpoint `label`.
-[[nodiscard]] link::Stages stages_of(const Plan& plan, std::string_view label, std::uint64_t ordinal,
-                                     const link::StageSite& site);
+// The stages for a link of the endpoint `label`.
+[[nodiscard]] link::Stages stages_of(const Plan& plan, std::string_view label, const link::StageSite& site);
 
 }  // namespace mavloom::fault

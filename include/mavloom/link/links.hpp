@@ -211,6 +211,10 @@ public:
     // Must not be called inside a callback.
     bool set_stages(EndpointId endpoint, CreateStages create);
     bool set_stages(LinkId link, const CreateStages& create);
+    // The function of the last set_stages: of an endpoint, for its future links; of a link, for those that it has. Null
+    // if there are no stages. Valid until the next call of set_stages, `remove` or `turn`.
+    [[nodiscard]] const CreateStages* stages_by(EndpointId endpoint) const noexcept;
+    [[nodiscard]] const CreateStages* stages_by(LinkId link) const noexcept;
     // Passes an event for the log to the handler's on_notice, in the next turn.
     void report(EndpointId endpoint, std::string text);
     // True if a key file of `sign=` or `verify=` now holds a different key from the one in use. False while one of the

@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -56,6 +57,10 @@ public:
     virtual ~Stage() = default;
     // `now`: the time of the turn; for a piece that an earlier stage held, the time at which it was due.
     virtual void take(const Piece& piece, MonoTime now, Next& next) noexcept = 0;
+    // When to call `tick`, if no piece comes before. Empty: the stage waits for nothing.
+    [[nodiscard]] virtual std::optional<MonoTime> tick_due() const noexcept { return std::nullopt; }
+    // Passes on what the stage has kept to itself for long enough. After a call at `tick_due`, that is later or empty.
+    virtual void tick(MonoTime /*now*/, WallTime /*time*/, Next& /*next*/) noexcept {}
     // The connection has ended, or other stages replace this one. Passes on what the stage itself has kept.
     virtual void finish(WallTime /*time*/, Next& /*next*/) noexcept {}
 };
@@ -71,6 +76,7 @@ struct StageSite {
     LinkId link;
     std::string_view name;   // valid during the call
     bool is_stream = false;  // tcp and serial
+    std::uint64_t ordinal;   // how many links the endpoint had before this one, those that are gone included
     LinkCounters& counters;
     const wire::MessageTable& table;
 };

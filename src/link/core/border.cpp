@@ -53,6 +53,12 @@ void Border::Chain::keep(MonoTime when, Held piece) {
     held.emplace_hint(held.end(), when, std::move(piece));
 }
 
+MonoTime Border::Chain::due() const noexcept {
+    MonoTime earliest = held.empty() ? MonoTime::max() : held.begin()->first;
+    for (const auto& stage : stages) earliest = std::min(earliest, stage->tick_due().value_or(MonoTime::max()));
+    return earliest;
+}
+
 void Border::Chain::exchange(std::vector<std::unique_ptr<Stage>> others) {
     Rest rest(*this);
     for (const auto& stage : stages) stage->finish(wall_now(), rest);
@@ -65,16 +71,18 @@ void Border::Chain::exchange(std::vector<std::unique_ptr<Stage>> others) {
     held = std::move(due);
 }
 
-void Border::replace(Stages stages) {
+void Border::replace(Stages stages, const CreateStages& by) {
     at(Way::in).exchange(std::move(stages.in));
     at(Way::out).exchange(std::move(stages.out));
     text_ = std::move(stages.text);
+    made_by_ = by;
     core_.tickers.keep(*this);
 }
 
 void Border::take(Way way, const Piece& piece) {
     release_until(way, core_.now());
     pass(way, 0, piece, core_.now());
+    if (at(way).due() != MonoTime::max()) core_.tickers.keep(*this);
 }
 
 void Border::pass(Way way, std::size_t place, const Piece& piece, MonoTime now) {
@@ -110,6 +118,16 @@ void Border::release_until(Way way, MonoTime end) {
     }
 }
 
+void Border::tick_stages(Way way, MonoTime now) {
+    for (std::size_t place = 0; place < at(way).stages.size(); ++place) {
+        Stage& stage = *at(way).stages[place];
+        const auto due = stage.tick_due();
+        if (!due || *due > now) continue;
+        Step next(*this, way, place + 1, now);
+        stage.tick(now, wall_now(), next);
+    }
+}
+
 void Border::release(Way way) {
     release_until(way, MonoTime::max());
     for (std::size_t place = 0; place < at(way).stages.size(); ++place) {
@@ -128,15 +146,15 @@ void Border::drop(Way way) noexcept {
 
 std::optional<MonoTime> Border::tick_due() const {
     if (is_idle()) return MonoTime{};
-    MonoTime due = MonoTime::max();
-    for (const Chain& chain : chains_)
-        if (!chain.held.empty()) due = std::min(due, chain.held.begin()->first);
+    const MonoTime due = std::min(at(Way::in).due(), at(Way::out).due());
     return due == MonoTime::max() ? std::optional<MonoTime>() : due;
 }
 
 void Border::tick(MonoTime now) {
-    release_until(Way::in, now);
-    release_until(Way::out, now);
+    for (const Way way : {Way::in, Way::out}) {
+        release_until(way, now);
+        tick_stages(way, now);
+    }
     if (is_idle()) core_.remove_border(link_);
 }
 

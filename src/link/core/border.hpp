@@ -29,7 +29,9 @@ public:
     ~Border() override;
 
     // Exchanges the stages. Pieces that the earlier ones hold pass the border before all others, without more stages.
-    void replace(Stages stages);
+    // `by`: what created them.
+    void replace(Stages stages, const CreateStages& by);
+    [[nodiscard]] const CreateStages& made_by() const noexcept { return made_by_; }
     // Stages::text.
     [[nodiscard]] const std::string& text() const noexcept { return text_; }
     // Passes the piece through the stages. Inward only during a turn.
@@ -57,6 +59,8 @@ private:
 
         void exchange(std::vector<std::unique_ptr<Stage>> others);
         void keep(MonoTime when, Held piece);
+        // When a held piece or a stage is due; MonoTime::max() if none is.
+        [[nodiscard]] MonoTime due() const noexcept;
     };
     class Rest;
 
@@ -66,6 +70,7 @@ private:
     void pass(Way way, std::size_t place, const Piece& piece, MonoTime now);
     void hold(Way way, std::size_t place, const Piece& piece, MonoTime now, MonoTime when);
     void release_until(Way way, MonoTime end);
+    void tick_stages(Way way, MonoTime now);
     void leave(Way way, const Piece& piece);
     [[nodiscard]] bool is_idle() const noexcept;
 
@@ -73,6 +78,7 @@ private:
     Link& link_;
     std::array<Chain, 2> chains_;  // by Way
     std::string text_;
+    CreateStages made_by_;
 };
 
 }  // namespace mavloom::link::detail

@@ -64,6 +64,7 @@ void Core::add_link(Link& link, Rank rank) {
     link.rank = verifies ? Rank::verified : rank;
     link.dialect = &dialects.of(link.endpoint);
     link.loss.tracker.limit_by(source_budget);
+    link.ordinal = links_added[link.endpoint]++;
     links.add(link);
     create_stages(link);
 }
@@ -74,14 +75,15 @@ void Core::create_stages(Link& link) {
 }
 
 void Core::set_stages(Link& link, const CreateStages& create) {
-    put_stages(link, create({link.id, link.name, link.is_stream(), link.counters, link.dialect->table}));
+    const StageSite site{link.id, link.name, link.is_stream(), link.ordinal, link.counters, link.dialect->table};
+    put_stages(link, create(site), create);
 }
 
-void Core::put_stages(Link& link, Stages made) {
+void Core::put_stages(Link& link, Stages made, const CreateStages& by) {
     const bool is_empty = made.in.empty() && made.out.empty();
     if (!link.border && is_empty) return;
     if (!link.border) link.border = std::make_unique<Border>(*this, link);
-    link.border->replace(std::move(made));
+    link.border->replace(std::move(made), by);
 }
 
 void Core::set_stages(EndpointId endpoint, CreateStages create) {
@@ -90,7 +92,7 @@ void Core::set_stages(EndpointId endpoint, CreateStages create) {
     else stages.insert_or_assign(endpoint, std::move(create));
     links.each([&](Link& link) {
         if (link.endpoint != endpoint) return;
-        if (removes) put_stages(link, {});
+        if (removes) put_stages(link, {}, nullptr);
         else create_stages(link);
     });
 }

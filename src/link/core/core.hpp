@@ -133,7 +133,7 @@ public:
 
 private:
     void create_stages(Link& link);
-    void put_stages(Link& link, Stages made);
+    void put_stages(Link& link, Stages made, const CreateStages& by);
     [[nodiscard]] static wire::FrameView signed_for(Link& link, const wire::FrameView& frame);
     static bool queue(Link& link, net::BlockQueue& lane, OutgoingFrame& outgoing, const wire::FrameView& frame,
                       MonoTime now);
@@ -156,6 +156,7 @@ public:
     net::OwnAddresses own_addresses;
     LookUps look_ups;
     std::map<EndpointId, CreateStages> stages;
+    std::map<EndpointId, std::uint64_t> links_added;  // since the endpoint was added
     LinkTable links;
     LinkEvents events;
     Outlets outlets;

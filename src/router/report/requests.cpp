@@ -4,8 +4,8 @@
 
 #include <array>
 
+#include "control/fault_request.hpp"
 #include "control/json_request.hpp"
-#include "mavloom/fault/faults.hpp"
 #include "mavloom/router/report.hpp"
 
 namespace mavloom::router {
@@ -27,15 +27,9 @@ Report remove(Router& router, const std::string& name) {
     return control::succeeded();
 }
 
-// Replaces the faults of an endpoint or link.
 Report set_faults(Router& router, const control::Json& request) {
-    const auto name = control::text_at(request, "name");
-    const auto now = fault::change(
-        router.links(), name,
-        {control::text_at(request, "in"), control::text_at(request, "out"), control::text_at(request, "seed")});
-    if (!now) return control::failed(now.error().text);
-    router.notify(config::LogLevel::info, fmt::format("{}: faults set by ctl: {}", name, *now));
-    return control::succeeded();
+    return control::set_faults(router.links(), request,
+                               [&](const std::string& text) { router.notify(config::LogLevel::info, text); });
 }
 
 using Command = control::Command<Router>;

@@ -95,6 +95,13 @@ def test_loss_of_what_is_sent(spawn):
     assert path.router.links()[0]["lost"] == 0
 
 
+def test_a_frame_behind_noise_does_not_wait_for_more_bytes(spawn):
+    with Path(spawn, "tcpin", inward="&in_fault=loss:0.000001") as path:
+        frame = routers.attitude(VEHICLE)
+        path.vehicle.send(b"\xfd" + frame)
+        assert path.station.count(1) == [frame]
+
+
 @pytest.mark.parametrize("kind", ["udpin", "tcpin"])
 def test_copies(spawn, kind):
     with Path(spawn, kind, inward="&in_fault=duplicate:0.1") as path:
@@ -232,6 +239,8 @@ def test_faults_change_while_a_router_runs(spawn, run):
         path.send(10)
         harness.wait_for(lambda: path.link("vehicle")["fault_lost"] == 10, what="ten lost frames")
         assert run("ctl", name, "fault", path.link("vehicle")["link"], "--out", "sik", "--seed", "5").status == 0
+        assert path.link("vehicle")["faults"] == "in loss:1, out sik, seed 5"
+        assert run("ctl", name, "fault", path.link("vehicle")["link"], "--in", "off").status == 0
         assert path.link("vehicle")["faults"] == "in off, out sik, seed 5"
         assert run("ctl", name, "fault", "vehicle", "off").status == 0
         path.send(10)
@@ -244,6 +253,20 @@ def test_faults_change_while_a_router_runs(spawn, run):
             done = run("ctl", name, "fault", *wrong)
             assert done.status != 0 and why in done.stderr, done
         assert "--seed are for fault" in run("ctl", name, "links", "--seed", "1").stderr
+
+
+@pytest.mark.parametrize("wrong", [
+    {}, {"faults": "off"}, {"seed": "3"}, {"in": None}, {"in": 1, "out": "sik"}, {"out": ["sik"]},
+    {"in": "sik", "seed": True}, {"in": "sik", "seed": 1.5}, {"in": "sik", "seed": -1}, {"in": ""}])
+def test_a_wrong_request_changes_nothing(spawn, wrong):
+    with Path(spawn) as path:
+        ask, right = path.router.ask, {"in": "loss:0.1", "out": "sik", "seed": 7}
+        ask("fault", name="station", **right)
+        with pytest.raises(AssertionError, match="'ok': False"):
+            ask("fault", name="station", **wrong)
+        assert path.link("station")["faults"] == "in loss:0.1, out sik, seed 7"
+        ask("fault", name="station", **{"in": "off"})
+        assert path.link("station")["faults"] == "in off, out sik, seed 7"
 
 
 def test_a_router_reports_its_faults_at_start_and_in_stat(spawn, run):

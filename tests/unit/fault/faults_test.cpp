@@ -20,14 +20,14 @@ using ::testing::IsEmpty;
 Plan plan(const std::string& out, std::uint64_t seed = 1) {
     auto faults = endpoint::parse_faults(out);
     EXPECT_TRUE(faults) << (faults ? "" : faults.error().text);
-    return {.in = {}, .out = faults.value_or(endpoint::Faults{}), .seed = seed};
+    return {.out = faults.value_or(endpoint::Faults{}), .seed = seed};
 }
 
 // A line with faults, and a receiver at its end that counts as every link does.
 class Line {
 public:
     explicit Line(const Plan& plan, std::uint64_t ordinal = 0)
-        : stages_(stages_of(plan, "line", ordinal, {LinkId{1}, "line", true, counters, table()})) {}
+        : stages_(stages_of(plan, "line", {LinkId{1}, "line", true, ordinal, counters, table()})) {}
 
     // Sends `count` frames, one every 10 ms, then waits until nothing is held.
     void send(int count) {
@@ -228,7 +228,7 @@ TEST(Injected, TheSameSeedDoesTheSame) {
 
 TEST(Injected, WithoutFaultsThereAreNoStages) {
     LinkCounters counters;
-    const auto stages = stages_of(plan("loss:0"), "line", 0, {LinkId{1}, "line", true, counters, table()});
+    const auto stages = stages_of(plan("loss:0"), "line", {LinkId{1}, "line", true, 0, counters, table()});
     EXPECT_THAT(stages.in, IsEmpty());
     EXPECT_THAT(stages.out, IsEmpty());
     EXPECT_EQ(stages.text, "");
@@ -276,6 +276,16 @@ TEST(FaultyLinks, OfAStreamLoseWholeFrames) {
     EXPECT_EQ(c.junk_bytes.value() + c.crc_error.value(), 0u);
 }
 
+// The link must have no more traffic: a later byte would end the wait.
+TEST(FaultyLinks, OfAStreamDeliverAFrameBehindNoiseInSilence) {
+    FaultyNode node;
+    const auto id = node.open("tcpin://127.0.0.1:0?name=radio&in_fault=loss:0.000001");
+    const auto far = PlainSocket::connected_tcp(node.port(id));
+    far.write(Bytes{0xFD} + heartbeat(0));
+    ASSERT_TRUE(until([&] { return node.recorder.frames.size() == 1; }, node));
+    EXPECT_EQ(node.recorder.bytes(), heartbeat(0));
+}
+
 // A read ends within a frame when the faults change.
 TEST(FaultyLinks, OfAStreamKeepAFrameThatIsUnderWayWhenFaultsChange) {
     FaultyNode node;
@@ -284,7 +294,7 @@ TEST(FaultyLinks, OfAStreamKeepAFrameThatIsUnderWayWhenFaultsChange) {
     const Bytes first = attitude(0), second = attitude(1);
     far.write(first + Bytes(second.begin(), second.begin() + 10));
     ASSERT_TRUE(until([&] { return node.recorder.frames.size() == 2; }, node));
-    ASSERT_TRUE(fault::change(*node.links, "radio", {.in = "off", .out = "off", .seed = {}}));
+    ASSERT_TRUE(fault::change(*node.links, "radio", {.in = "off", .out = "off"}));
     far.write(Bytes(second.begin() + 10, second.end()));
     ASSERT_TRUE(until([&] { return node.recorder.frames.size() == 3; }, node));
     EXPECT_EQ(node.recorder.bytes(), first + first + second);
@@ -300,8 +310,7 @@ TEST(FaultyLinks, ChangeWhileTheyRun) {
     EXPECT_EQ(node.stages_text(), "");
 
     const auto name = node.recorder.ups.at(0).second;
-    EXPECT_EQ(fault::change(*node.links, name, {.in = "loss:1", .out = "sik", .seed = {}}),
-              "in loss:1, out sik, seed 9");
+    EXPECT_EQ(fault::change(*node.links, name, {.in = "loss:1", .out = "sik"}), "in loss:1, out sik, seed 9");
     far.send_to(node.port(id), heartbeat(1));
     other.send_to(node.port(id), heartbeat(0, 2));
     ASSERT_TRUE(until([&] { return node.recorder.frames.size() == 2; }, node)) << "only the one link has them";
@@ -311,21 +320,51 @@ TEST(FaultyLinks, ChangeWhileTheyRun) {
     EXPECT_EQ(fault::change(*node.links, "radio", {.in = "wifi", .out = "wifi", .seed = "4"}),
               "in and out wifi, seed 4");
     for (const auto& link : node.links->links()) EXPECT_EQ(link.stages, "in and out wifi, seed 4");
-    EXPECT_EQ(fault::change(*node.links, "radio", {.in = "off", .out = {}, .seed = {}}), "off");
+    EXPECT_EQ(fault::change(*node.links, "radio", {.in = "off"}), "in off, out wifi, seed 4");
+    EXPECT_EQ(fault::change(*node.links, name, {.in = "loss:1"}), "in loss:1, out wifi, seed 4");
+    EXPECT_EQ(fault::change(*node.links, "radio", {.out = "off"}), "off");
     far.send_to(node.port(id), heartbeat(2));
     ASSERT_TRUE(until([&] { return node.recorder.frames.size() == 3; }, node));
     for (const auto& link : node.links->links()) EXPECT_EQ(link.stages, "");
+}
+
+// The second peer keeps its random numbers when the first one leaves and the faults begin again.
+TEST(FaultyLinks, KeepTheirNumberWhenAnEarlierOneLeaves) {
+    const auto fate_of_second = [](bool first_leaves) {
+        FaultyNode node;
+        const auto id = node.open("udpin://127.0.0.1:0?name=radio");
+        const auto first = PlainSocket::udp(), second = PlainSocket::udp();
+        first.send_to(node.port(id), heartbeat(0));
+        EXPECT_TRUE(until([&] { return node.recorder.ups.size() == 1; }, node));
+        second.send_to(node.port(id), heartbeat(0, 2));
+        EXPECT_TRUE(until([&] { return node.recorder.ups.size() == 2; }, node));
+        if (first_leaves) EXPECT_TRUE(node.links->close(node.recorder.ups.at(0).first));
+        EXPECT_TRUE(fault::change(*node.links, "radio", {.in = "loss:0.5"}));
+        const LinkCounters& c = node.counters(node.recorder.ups.at(1).first);
+        std::string fate;
+        for (std::uint8_t i = 1; i <= 40; ++i) {
+            const auto lost = c.fault_lost.value(), heard = c.frames_in.value();
+            second.send_to(node.port(id), heartbeat(i, 2));
+            EXPECT_TRUE(until([&] { return c.fault_lost.value() + c.frames_in.value() > lost + heard; }, node));
+            fate += c.fault_lost.value() > lost ? 'x' : '.';
+        }
+        return fate;
+    };
+    EXPECT_EQ(fate_of_second(true), fate_of_second(false));
 }
 
 TEST(FaultyLinks, ImpossibleChangesAreRefused) {
     FaultyNode node;
     (void)node.open("udpin://127.0.0.1:0?name=radio");
     (void)node.open("shm://faults_test");
-    EXPECT_THAT(node.error_of("radoi", {.in = "sik", .out = {}, .seed = {}}), HasSubstr("no endpoint or link 'radoi'"));
-    EXPECT_THAT(node.error_of("radio", {.in = "sick", .out = {}, .seed = {}}), HasSubstr("did you mean 'sik'?"));
-    EXPECT_THAT(node.error_of("radio", {.in = {}, .out = "cut:0.1", .seed = {}}), HasSubstr("fault of byte streams"));
-    EXPECT_THAT(node.error_of("radio", {.in = "sik", .out = {}, .seed = "x"}), HasSubstr("seed: 'x' is not a whole"));
-    EXPECT_THAT(node.error_of("shm://faults_test", {.in = "sik", .out = {}, .seed = {}}), HasSubstr("is a ring"));
+    EXPECT_THAT(node.error_of("radoi", {.in = "sik"}), HasSubstr("no endpoint or link 'radoi'"));
+    EXPECT_THAT(node.error_of("radio", {}), HasSubstr("'in', 'out' or both are missing"));
+    EXPECT_THAT(node.error_of("radio", {.seed = "2"}), HasSubstr("'in', 'out' or both are missing"));
+    EXPECT_NE(node.error_of("radio", {.in = ""}), "");
+    EXPECT_THAT(node.error_of("radio", {.in = "sick"}), HasSubstr("did you mean 'sik'?"));
+    EXPECT_THAT(node.error_of("radio", {.out = "cut:0.1"}), HasSubstr("fault of byte streams"));
+    EXPECT_THAT(node.error_of("radio", {.in = "sik", .seed = "x"}), HasSubstr("seed: 'x' is not a whole"));
+    EXPECT_THAT(node.error_of("shm://faults_test", {.in = "sik"}), HasSubstr("is a ring"));
 }
 
 }  // namespace

@@ -272,6 +272,49 @@ TEST(CutIntoFrames, MakesAPieceOfEachFrameHoweverTheyAreRead) {
     }
 }
 
+// A message that the table lacks.
+Bytes unknown_frame() {
+    constexpr wire::MessageInfo info{MessageId{9999}, 1, 9, 9};
+    wire::FrameBuffer buffer;
+    const auto frame = wire::write_frame(buffer, {wire::Version::v2, 0, {SystemId{1}, ComponentId{1}}}, info,
+                                         Bytes(9, 7));
+    return {frame.bytes().begin(), frame.bytes().end()};
+}
+
+TEST(CutIntoFrames, InSilencePassesWhatAFalseStartHoldsBack) {
+    Trial run;
+    CutIntoFrames stage(table());
+    run.take(stage, Bytes{0xFD} + heartbeat(0));
+    EXPECT_THAT(run.next.pieces, IsEmpty()) << "the start byte claims more bytes";
+    ASSERT_TRUE(stage.tick_due());
+    run.next.now = *stage.tick_due();
+    stage.tick(run.next.now, {}, run.next);
+    EXPECT_THAT(run.next.pieces, ElementsAre(Bytes{0xFD}, heartbeat(0)));
+    EXPECT_FALSE(stage.tick_due());
+}
+
+TEST(CutIntoFrames, InSilenceAFrameOfAnUnknownMessageWaitsNoLonger) {
+    Trial run;
+    CutIntoFrames stage(table());
+    run.take(stage, unknown_frame());
+    EXPECT_THAT(run.next.pieces, IsEmpty());
+    ASSERT_TRUE(stage.tick_due());
+    stage.tick(*stage.tick_due(), {}, run.next);
+    EXPECT_THAT(run.next.pieces, ElementsAre(unknown_frame()));
+}
+
+TEST(CutIntoFrames, InSilenceHalfAFrameWaitsForItsRest) {
+    Trial run;
+    CutIntoFrames stage(table());
+    const Bytes frame = heartbeat(0);
+    run.take(stage, {frame.begin(), frame.begin() + 10});
+    ASSERT_TRUE(stage.tick_due());
+    stage.tick(*stage.tick_due(), {}, run.next);
+    EXPECT_FALSE(stage.tick_due());
+    run.take(stage, {frame.begin() + 10, frame.end()});
+    EXPECT_THAT(run.next.pieces, ElementsAre(frame));
+}
+
 TEST(CutIntoFrames, KeepsNoByteForItself) {
     Bytes damaged = heartbeat(1);
     damaged.back() ^= 1;
