@@ -7,8 +7,7 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE MinSizeRel)
 endif()
 add_compile_definitions(MAVLOOM_MINIMAL)
-add_compile_options(-ffunction-sections -fdata-sections)
-add_link_options(LINKER:--gc-sections,--strip-all)
+add_link_options(LINKER:--strip-all)
 set(CMAKE_INTERPROCEDURAL_OPTIMIZATION ON)
 
 # Packs the table of addresses that the loader adjusts: 90 kB. Older loaders cannot read it.

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "mavloom/base/durations.hpp"
@@ -26,15 +25,6 @@ using namespace std::chrono_literals;
 static constexpr Nanoseconds maintain_interval = 1s, page_interval = 250ms;
 
 namespace {
-
-// Empty if the request was executed.
-std::string error_of(const control::Report& report) {
-    std::string text;
-    for (auto more = report.next_text(); !more.empty(); more = report.next_text()) text += more;
-    if (!text.empty()) text.pop_back();
-    const auto last = nlohmann::json::parse(text.substr(text.rfind('\n') + 1), nullptr, false);
-    return last.is_object() ? last.value("error", std::string()) : "no answer";
-}
 
 SimulatorOptions dated(SimulatorOptions options) {
     if (options.utc_at_start == WallTime{}) options.utc_at_start = wall_now();

@@ -95,4 +95,12 @@ SetupResult<std::string> request_of_order(std::string_view text, std::optional<S
     return request.dump();
 }
 
+std::string error_of(const control::Report& report) {
+    std::string text;
+    for (auto more = report.next_text(); !more.empty(); more = report.next_text()) text += more;
+    if (!text.empty()) text.pop_back();
+    const auto last = nlohmann::json::parse(text.substr(text.rfind('\n') + 1), nullptr, false);
+    return last.is_object() ? last.value("error", std::string()) : "no answer";
+}
+
 }  // namespace mavloom::simserve
