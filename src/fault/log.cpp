@@ -34,12 +34,20 @@ std::string frame_text(ByteView bytes) {
 
 }  // namespace
 
+// A log continues; every other file stays as it is.
 SetupResult<void> log_to(const std::string& path) {
     if (path.empty()) return {};
-    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0644);
+    if (log_file.load() >= 0) return setup_error(SetupCode::in_use, "there is a fault log already");
+    const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NONBLOCK | O_CLOEXEC, 0644);
     if (file < 0) return system_error(fmt::format("cannot create the fault log {}", path), errno);
-    write_line(file, log_head);
-    if (const int earlier = log_file.exchange(file); earlier >= 0) ::close(earlier);
+    std::string head(log_head.size(), '\0');
+    const auto size = ::pread(file, head.data(), head.size(), 0);  // fails if it is no file
+    if (size != 0 && head != log_head) {
+        ::close(file);
+        return setup_error(SetupCode::in_use, fmt::format("{} is no fault log, and stays as it is", path));
+    }
+    if (size == 0) write_line(file, log_head);
+    log_file = file;
     return {};
 }
 

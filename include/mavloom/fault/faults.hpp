@@ -47,8 +47,8 @@ struct Change {
 [[nodiscard]] SetupResult<std::string> change(link::Links& links, std::string_view name, const Change& change);
 
 // From now on, links that get faults write a line to this file for each fault that happens (docs/guide/faults.md). It
-// applies to all Links of the process: call it once, before endpoints are opened. The file is created, or emptied.
-// An empty path: no log.
+// applies to all Links of the process: call it once, before endpoints are opened. A log that exists continues; any
+// other file is an error (`in_use`) and stays as it is. Lines that the disk refuses are lost. An empty path: no log.
 [[nodiscard]] SetupResult<void> log_to(const std::string& path);
 
 // The stages for a link of the endpoint `label`.

@@ -2,6 +2,7 @@
 """Faults on purpose, kind by kind: what a router, `listen`, `stat` and a simulator count must equal what was injected,
 and what arrives must agree with both. The statistics of each fault have unit tests (tests/unit/fault)."""
 import json
+import os
 import time
 
 import pytest
@@ -299,6 +300,19 @@ def test_a_log_that_cannot_be_written_is_an_error(run, tmp_path):
                     ["sim"]):
         done = run(*command, "--fault-log", tmp_path / "missing" / "faults.tsv")
         assert done.status == 1 and "cannot create the fault log" in done.stderr, done
+
+
+def test_a_log_continues_and_no_other_file_is_touched(run, tmp_path):
+    log, other, pipe = tmp_path / "faults.tsv", tmp_path / "flight.tlog", tmp_path / "pipe"
+    other.write_bytes(b"\0" * 100)
+    os.mkfifo(pipe)
+    for path in (other, pipe):
+        done = run("sim", "--fault-log", path, "--for", "10ms")
+        assert done.status == 1 and "is no fault log, and stays as it is" in done.stderr, done
+    assert other.read_bytes() == b"\0" * 100
+    for _ in range(2):
+        run("sim", "--ring", f"log-{os.getpid()}", "--fault-log", log, "--for", "10ms")
+    assert log.read_text() == "time_us\tlink\tdirection\tfault\tbytes\tmessage\tsender\tsequence\n"
 
 
 @pytest.mark.parametrize("fault, injected, counted", [
