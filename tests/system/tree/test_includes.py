@@ -112,7 +112,7 @@ def test_includes_follow_the_module_table():
      "`wire` may not include `dialect`, only base"),
     ("src/record/x.cpp", "#  include <mavloom/link/links.hpp>", "`record` may not include `link`, only base, wire"),
     ("src/control/x.cpp", '#include "mavloom/router/router.hpp"',
-     "`control` may not include `router`, only base, endpoint, http, link, net"),
+     "`control` may not include `router`, only base, endpoint, fault, http, link, net"),
     ("src/wire/x.cpp", '#include "mavloom/msg/attitude.hpp"', "`wire` may not include `message`, only base"),
     ("apps/mavloom/x.cpp", '#include "net/socket_options.hpp"', "private headers of `net` are its own"),
     ("include/mavloom/wire/x.hpp", '#include "wire/sha.hpp"', "private headers of `wire` are its own"),
