@@ -151,6 +151,7 @@ def test_a_web_page_commands_no_vehicle(spawn):
         with routers.tcp_client(client_port) as station:
             station.send(order := command(STATION, VEHICLE))
             assert vehicle.until(order) == []
+    router.process.wait_output("is an HTTP or TLS client")
     assert router.process.stderr.count("is an HTTP or TLS client") == 1
 
 

@@ -462,7 +462,9 @@ def test_telemetry_does_not_grow_old_in_a_queue(machines, spawn_in, scheme):
         assert net.link()["queue_bytes"] == 0
         net.widen()
         last = routers.attitude()
-        net.vehicle.send(last)
+        for _ in range(10):  # while the kernel's buffer is full, on a busy machine, one may grow old, too
+            net.vehicle.send(last)
+            time.sleep(0.1)
         got = [frame for frame in net.station.until(last) if frame in set(sent)]
         assert got == [frame for frame in sent if frame in set(got)]
         assert len(got) == len(sent) - dropped
