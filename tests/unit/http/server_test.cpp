@@ -220,6 +220,7 @@ TEST_F(HttpServer, ClientsThatConnectAtTheSameInstantAreAnswered) {
     serve(std::move(options));
     std::vector<RawClient> clients;
     for (int i = 0; i < 20; ++i) clients.push_back(client());
+    EXPECT_TRUE(eventually([&] { return count(Count::connections) == 20; }));
     for (auto& one : clients) one.send(close_hello);
     for (auto& one : clients) EXPECT_THAT(one.read_until("hello you"), StartsWith("HTTP/1.1 200"));
     EXPECT_EQ(count(Count::displaced), 0u);
