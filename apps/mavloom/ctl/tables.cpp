@@ -181,6 +181,7 @@ void add(TextTable& table, const Json& object, const Layout& layout) {
     const bool is_quiet = layout.kind == "gone" && nonzero(object, {}).empty();
     if (is_quiet) return;
     std::vector<std::string> cells;
+    cells.reserve(layout.columns.size());
     for (const auto& column : layout.columns) cells.push_back(cell_of(object, column));
     table.add_row(std::move(cells));
     if (!rest.empty()) table.add_note(rest);
@@ -188,6 +189,7 @@ void add(TextTable& table, const Json& object, const Layout& layout) {
 
 TextTable table_of(const std::vector<Json>& objects, const Layout& layout) {
     std::vector<TextTable::Column> columns;
+    columns.reserve(layout.columns.size());
     for (const auto& shown : layout.columns) columns.push_back({shown.title, shown.rank, !is_text(shown.form)});
     TextTable table(std::move(columns));
     for (const auto& object : objects) {

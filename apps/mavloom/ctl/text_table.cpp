@@ -92,6 +92,7 @@ TextTable::Fitted TextTable::fitted(int width) const {
         out.is_cut = true;
     }
     std::vector<std::string> titles;
+    titles.reserve(columns_.size());
     for (const auto& column : columns_) titles.emplace_back(column.title);
     out.text = line_of(titles, widths);
     for (const auto& row : rows_) {
