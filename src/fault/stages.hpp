@@ -61,15 +61,21 @@ private:
     Tally tally_;
 };
 
-class Lose final : public link::Stage {
+// Meets each piece with a chance that does not depend on the others.
+class ByChance : public link::Stage {
 public:
-    Lose(double share, Seed seed, Tally tally) noexcept : share_(share), draws_(seed), tally_(std::move(tally)) {}
-    void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
+    ByChance(double share, Seed seed, Tally tally) noexcept : share_(share), draws_(seed), tally_(std::move(tally)) {}
 
-private:
+protected:
     double share_;
     Draws draws_;
     Tally tally_;
+};
+
+class Lose final : public ByChance {
+public:
+    using ByChance::ByChance;
+    void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
 };
 
 // Gilbert-Elliott: in the bad state all is lost, in the good one nothing. After each piece, the state changes with the
@@ -87,40 +93,27 @@ private:
     Tally tally_;
 };
 
-class Duplicate final : public link::Stage {
+class Duplicate final : public ByChance {
 public:
-    Duplicate(double share, Seed seed, Tally tally) noexcept : share_(share), draws_(seed), tally_(std::move(tally)) {}
+    using ByChance::ByChance;
     void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
-
-private:
-    double share_;
-    Draws draws_;
-    Tally tally_;
 };
 
 // Inverts one bit.
-class Corrupt final : public link::Stage {
+class Corrupt final : public ByChance {
 public:
-    Corrupt(double share, Seed seed, Tally tally) noexcept : share_(share), draws_(seed), tally_(std::move(tally)) {}
+    using ByChance::ByChance;
     void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
 
 private:
-    double share_;
-    Draws draws_;
-    Tally tally_;
     std::vector<std::uint8_t> changed_;
 };
 
 // Passes only the beginning of a piece, at least one byte.
-class CutShort final : public link::Stage {
+class CutShort final : public ByChance {
 public:
-    CutShort(double share, Seed seed, Tally tally) noexcept : share_(share), draws_(seed), tally_(std::move(tally)) {}
+    using ByChance::ByChance;
     void take(const Piece& piece, MonoTime now, Next& next) noexcept override;
-
-private:
-    double share_;
-    Draws draws_;
-    Tally tally_;
 };
 
 // No piece overtakes another.

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "command.hpp"
+#include "fault_log.hpp"
 #include "frames/receiving.hpp"
 #include "frames/sending.hpp"
 #include "frames/traffic_report.hpp"
@@ -270,8 +271,7 @@ Run declare_relay(Arguments command, const Common& common) {
     command.add_flag("--json", options->json,
                      "at the end, print the totals as one JSON object on stdout (docs/guide/relay.md)");
     command.add_option("--for", "TIME", options->duration, "end after this time: 10s, 2m");
-    command.add_option("--fault-log", "FILE", options->fault_log,
-                       "write a line for each fault that links have on purpose (docs/guide/faults.md)");
+    declare_fault_log(command, options->fault_log);
     command.footer(
         "Without options, the output is byte for byte the input. Answers from the far side go back to the "
         "sources. A ring is read losslessly unless ?lossless=false.\n\nExamples:\n"

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "command.hpp"
+#include "fault_log.hpp"
 #include "frames/receiving.hpp"
 #include "mavloom/base/durations.hpp"
 #include "mavloom/control/service_manager.hpp"
@@ -272,8 +273,7 @@ Run declare_sim(Arguments command, const Common& common) {
                              option.description);
     }
     command.add_flag("--json", options->json, "with --report: print one JSON object per line");
-    command.add_option("--fault-log", "FILE", options->fault_log,
-                       "write a line for each fault that links have on purpose (docs/guide/faults.md)");
+    declare_fault_log(command, options->fault_log);
     command.footer(
         "Simulates vehicles that ground stations and SDKs take for real. Without options, one PX4 quadrotor sends to "
         "port 14550\nof this machine, where a ground station finds it. The vehicle answers every sender.\n\n"

@@ -7,6 +7,7 @@
 
 #include "command.hpp"
 #include "explain.hpp"
+#include "fault_log.hpp"
 #include "mavloom/control/service_manager.hpp"
 #include "mavloom/fault/faults.hpp"
 #include "mavloom/router/router.hpp"
@@ -212,8 +213,7 @@ Run declare_route(Arguments command, const Common& common) {
         .default_str("*");
     declare_keys(command, *options);
     command.add_option("--for", "TIME", options->duration, "end after this time: 10s, 2m");
-    command.add_option("--fault-log", "FILE", options->fault_log,
-                       "write a line for each fault that links have on purpose (docs/guide/faults.md)");
+    declare_fault_log(command, options->fault_log);
     command.footer(
         "Forwards every frame byte for byte: broadcasts to all other links, targeted frames to the links where their "
         "target was heard.\nEach peer of udpin:// and each client of tcpin:// is its own link. tlog://PATH records "
