@@ -103,15 +103,12 @@ void Listening::run(Nanoseconds time) {
     const auto end = are_recordings_ ? MonoTime::max() : begin + time;
     receiver_->start(end);
     while (receiver_->wait()) {
-        const auto now = mono_now();
-        for (int i = 0; i < frames_between_ticks; ++i) {
-            const auto entry = receiver_->next();
-            if (!entry) break;
-            examine(*entry, now);
-        }
-        if (now < tick_at_) continue;
-        tick(now);
-        show_progress(progress, now, end);
+        const Instant now{wall_now(), mono_now()};
+        const auto examined_until = examine_some(now);
+        if (now.mono < tick_at_) continue;
+        tick_at_ = now.mono + tick_interval;
+        tick(examined_until);
+        show_progress(progress, now.mono, end);
     }
     receiver_->join();
     // Without an open source, the programs of this machine are still watched.
@@ -137,6 +134,20 @@ void Listening::OfSource::examine(const observe::Heard& heard) {
     radios.take(at);
 }
 
+// Frames wait for us if the terminal is halted.
+Listening::Instant Listening::examine_some(Instant now) {
+    constexpr Nanoseconds longest_wait = 10min;
+    Instant at = now;
+    for (int i = 0; i < frames_between_ticks; ++i) {
+        const auto entry = receiver_->next();
+        if (!entry) return now;
+        const auto waited = std::clamp<Nanoseconds>(now.wall - entry->time, {}, longest_wait);
+        at = {now.wall - waited, now.mono - waited};
+        examine(*entry, at.mono);
+    }
+    return at;
+}
+
 void Listening::examine(const record::FrameQueue::Entry& entry, MonoTime now) {
     auto* const source = source_of(entry.link);
     if (source == nullptr) return;
@@ -160,10 +171,9 @@ Listening::OfSource* Listening::source_of(LinkId link) {
 }
 
 // The end of a recording is no silence.
-void Listening::tick(MonoTime now) {
-    tick_at_ = now + tick_interval;
+void Listening::tick(Instant now) {
     for (const auto& source : sources_)
-        if (!are_recordings_) source->inspector.tick(wall_now(), now);
+        if (!are_recordings_) source->inspector.tick(now.wall, now.mono);
 }
 
 std::uint64_t Listening::frames() const {

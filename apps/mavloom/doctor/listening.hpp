@@ -58,9 +58,14 @@ private:
               std::unique_ptr<feed::Receiver> receiver)
         : common_(common), dialect_(dialect), programs_(std::move(programs)), receiver_(std::move(receiver)) {}
 
+    struct Instant {
+        WallTime wall;
+        MonoTime mono;
+    };
+    Instant examine_some(Instant now);  // returns until when all is examined
     void examine(const record::FrameQueue::Entry& entry, MonoTime now);
     [[nodiscard]] OfSource* source_of(LinkId link);
-    void tick(MonoTime now);
+    void tick(Instant now);
     void show_progress(Progress& progress, MonoTime now, MonoTime end);
     [[nodiscard]] bool is_any_open() const;
     [[nodiscard]] std::vector<observe::Hop> hops() const;

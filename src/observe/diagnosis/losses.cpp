@@ -17,7 +17,35 @@ constexpr std::uint64_t least_lost = 5;
 
 bool is_lossy(const SenderLoss& loss) { return loss.lost > least_lost && loss_ratio(loss) >= loss_limit; }
 
-std::uint64_t own_losses(const Listened& source) { return source.count("kernel_drop") + source.count("lapped"); }
+std::uint64_t count_of(const std::vector<NamedCount>& losses, std::string_view name) {
+    const auto at = std::ranges::find(losses, name, &NamedCount::name);
+    return at == losses.end() ? 0 : at->count;
+}
+
+// A count that fell belongs to a program that was started again.
+std::uint64_t grown(std::uint64_t from, std::uint64_t to) { return to < from ? to : to - from; }
+
+const Hop* before_of(const Evidence& evidence, const Hop& hop) {
+    const auto at = std::ranges::find(evidence.hops_before, hop.name, &Hop::name);
+    return at == evidence.hops_before.end() ? nullptr : &*at;
+}
+
+std::uint64_t ring_dropped(const Hop& before, const Hop& after) {
+    return grown(count_of(before.losses, "ring_dropped"), count_of(after.losses, "ring_dropped"));
+}
+
+// Frames of a ring may be missing because the router of this machine did not write them.
+std::uint64_t missing_in_rings(const Evidence& evidence) {
+    std::uint64_t sum = 0;
+    for (const auto& hop : evidence.hops_after)
+        if (const auto* const before = before_of(evidence, hop)) sum += ring_dropped(*before, hop);
+    return sum;
+}
+
+std::uint64_t own_losses(const Evidence& evidence, const Listened& source) {
+    const auto unwritten = source.kind == Listened::Kind::ring ? missing_in_rings(evidence) : 0;
+    return source.count("kernel_drop") + source.count("lapped") + evidence.buffer_full + unwritten;
+}
 
 const RadioReport* radio_on(const Evidence& evidence, LinkId link) {
     const auto at = std::ranges::find(evidence.radios, link, &RadioReport::link);
@@ -43,7 +71,7 @@ void find_loss(const Evidence& evidence, const SenderLoss& loss, Findings& findi
     const auto* const link = evidence.link(loss.link);
     if (!is_lossy(loss) || link == nullptr || is_compared(evidence, link->source, loss.source)) return;
     const auto& source = evidence.sources[link->source];
-    if (own_losses(source) + evidence.buffer_full != 0 || is_explained(evidence, source, loss)) return;
+    if (own_losses(evidence, source) != 0 || is_explained(evidence, source, loss)) return;
     const auto* const sender = stream_of(evidence, link->source, loss.source);
     if (sender == nullptr || !sender->has_sequence || arrival_of(evidence, link->source, *sender) != Arrival::usual)
         return;
@@ -81,14 +109,6 @@ void find_own_losses(const Evidence& evidence, Findings& findings) {
 
 namespace {
 
-std::uint64_t count_of(const std::vector<NamedCount>& losses, std::string_view name) {
-    const auto at = std::ranges::find(losses, name, &NamedCount::name);
-    return at == losses.end() ? 0 : at->count;
-}
-
-// A count that fell belongs to a program that was started again.
-std::uint64_t grown(std::uint64_t from, std::uint64_t to) { return to < from ? to : to - from; }
-
 // "14550" of "udpout://127.0.0.1:14550".
 std::string_view port_of(std::string_view name) {
     const auto colon = name.rfind(':');
@@ -119,15 +139,15 @@ void find_link_losses(const Evidence& evidence, const Hop& hop, const HopLink& b
 
 void find_hop_losses(const Evidence& evidence, Findings& findings) {
     for (const auto& hop : evidence.hops_after) {
-        const auto before = std::ranges::find(evidence.hops_before, hop.name, &Hop::name);
-        if (before == evidence.hops_before.end()) continue;
+        const auto* const before = before_of(evidence, hop);
+        if (before == nullptr) continue;
         for (const auto& link : hop.links) {
             if (link.is_sum) continue;  // a link that closes moves its counts there
             const auto same = std::ranges::find(before->links, link.name, &HopLink::name);
             find_link_losses(evidence, hop, same == before->links.end() ? HopLink{} : *same, link, findings);
         }
-        const auto more = grown(count_of(before->losses, "ring_dropped"), count_of(hop.losses, "ring_dropped"));
-        if (more != 0) findings.push_back(words::ring_dropped(hop, {"ring_dropped", more}));
+        if (const auto more = ring_dropped(*before, hop); more != 0)
+            findings.push_back(words::ring_dropped(hop, {"ring_dropped", more}));
     }
 }
 

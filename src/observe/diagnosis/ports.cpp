@@ -87,8 +87,10 @@ void find_damage(const Listened& source, std::uint64_t explained, Findings& find
 void find_unreadable(const Evidence& evidence, Findings& findings) {
     std::map<const Listened*, std::uint64_t> explained;
     for (const auto& [link, messages] : wrong_messages(evidence)) {
+        const auto* const source = evidence.source_of(link);
+        if (source == nullptr || !is_heard(*source)) continue;  // junk has the ids of messages here and there
         for (const auto& message : messages)
-            if (!message.name.empty()) explained[evidence.source_of(link)] += message.count;
+            if (!message.name.empty()) explained[source] += message.count;
         findings.push_back(words::wrong_dialect(std::string(evidence.name_of(link)), messages));
     }
     for (const auto& source : evidence.sources) find_damage(source, explained[&source], findings);

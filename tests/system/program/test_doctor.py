@@ -4,11 +4,13 @@ recordings."""
 import contextlib
 import json
 import os
+import pathlib
 import pty
 import random
 import re
 import signal
 import socket
+import subprocess
 import threading
 import time
 import tty
@@ -55,7 +57,7 @@ class World:
 
     def __init__(self, spawn, folder, stack):
         self.spawn, self.folder, self.stack = spawn, folder, stack
-        self.ended = threading.Event()
+        self.ended, self.is_one_silent = threading.Event(), threading.Event()
         self.threads, self.doctors = [], {}
 
     def name(self, fault):
@@ -95,9 +97,9 @@ class World:
             self.stack.callback(os.close, end)
         return far, os.ttyname(near)
 
-    def router(self, fault, *endpoints):
+    def router(self, fault, *arguments):
         name = self.name(fault)
-        router = self.spawn("route", *endpoints, "--ring", name, "--name", name)
+        router = self.spawn("route", *arguments, "--ring", name, "--name", name)
         harness.wait_for(lambda: os.path.exists(f"/dev/shm/mavloom.{name}.stat"), what=f"the ring of {fault}")
         return router, f"shm://{name}"
 
@@ -126,6 +128,10 @@ def plant_port_refused_tcp(world):
 
 def plant_port_refused_udp(world):
     return [f"udpout://127.0.0.1:{world.port()}"]
+
+
+def plant_cannot_open(world):
+    return [f"udpin://192.0.2.1:{world.port()}"]  # no machine has an address of TEST-NET-1 (RFC 5737)
 
 
 def plant_not_connected(world):
@@ -262,15 +268,21 @@ def plant_kernel_drop(world):
     return [f"udpin://127.0.0.1:{world.port()}?rcvbuf=4096"]
 
 
+@contextlib.contextmanager
+def standing_still(program):
+    program.send(signal.SIGSTOP)
+    yield
+    program.send(signal.SIGCONT)
+
+
 def overflow(world, doctor, sources):
     """The doctor stands still while more comes than its buffer holds."""
     sock = world.udp_to(int(sources[0].split(":")[2].split("?")[0]))
     vehicle = Vehicle()
     doctor.wait_output("listening", stream="err")
-    doctor.send(signal.SIGSTOP)
-    for _ in range(200):
-        sock.send(vehicle.next())
-    doctor.send(signal.SIGCONT)
+    with standing_still(doctor):
+        for _ in range(200):
+            sock.send(vehicle.next())
     world.repeat(lambda n: sock.send(vehicle.next()))
 
 
@@ -294,8 +306,13 @@ def plant_router_refused(world):
 
 def plant_link_full(world):
     far, near = world.pty()
-    vehicle = Vehicle()
-    world.repeat(lambda n: os.write(far, vehicle.next()), hz=250)  # 40 bytes each; the line carries 5,760 a second
+    vehicle, rest = Vehicle(), bytearray()
+
+    def send(n):
+        if not rest:
+            rest.extend(vehicle.next())
+        del rest[:os.write(far, rest)]
+    world.repeat(send, hz=250)  # 40 bytes each; the line carries 5,760 a second
     return [f"serial://{near}?baud=57600"]
 
 
@@ -339,6 +356,33 @@ def plant_rate_low(world):
     return [f"udpin://127.0.0.1:{port}"]
 
 
+def plant_rate_high(world):
+    port = world.port()
+    sock, vehicle = world.udp_to(port), Vehicle()
+    world.repeat(lambda n: sock.send(vehicle.next()), hz=20)
+    ask(world, port, hz=5)
+    return [f"udpin://127.0.0.1:{port}"]
+
+
+def plant_went_silent(world):
+    port = world.port()
+    sock, other, world.silenced = world.udp_to(port), Vehicle(2), Vehicle()
+
+    def send(n):
+        sock.send(other.next())
+        if not world.is_one_silent.is_set():
+            sock.send(world.silenced.next())
+    world.repeat(send)
+    return [f"udpin://127.0.0.1:{port}"]
+
+
+def silence_one(world, doctor):
+    doctor.wait_output("listening", stream="err")
+    heard = world.silenced.count + 160
+    harness.wait_for(lambda: world.silenced.count > heard, what="three HEARTBEATs before the silence")
+    world.is_one_silent.set()
+
+
 def plant_rate_contested(world):
     port = world.port()
     sock, vehicle = world.udp_to(port), Vehicle()
@@ -379,6 +423,7 @@ def healthy_router(world):
 PLANTED = {
     plant_nothing_heard: "nothing-heard",
     plant_port_taken: "port-taken",
+    plant_cannot_open: "cannot-open",
     plant_port_refused_tcp: "port-refused",
     plant_port_refused_udp: "port-refused",
     plant_not_connected: "not-connected",
@@ -403,6 +448,8 @@ PLANTED = {
     plant_radio_full: "radio-full",
     plant_radio_weak: "radio-weak",
     plant_rate_low: "rate-low",
+    plant_rate_high: "rate-high",
+    plant_went_silent: "went-silent",
     plant_rate_contested: "rate-contested",
     plant_filtered_between: "filtered-between",
     plant_two_simulators: "two-senders",
@@ -411,8 +458,8 @@ PLANTED = {
 }
 
 
-# Regular gaps are judged by half seconds.
-LISTENS = {plant_regular_gaps: "5500ms"}
+# Regular gaps are judged by half seconds, and a vehicle is silent after 5 s.
+LISTENS = {plant_regular_gaps: "5500ms", plant_went_silent: "8500ms"}
 
 
 def test_each_planted_fault_has_its_finding(spawn, tmp_path):
@@ -425,8 +472,10 @@ def test_each_planted_fault_has_its_finding(spawn, tmp_path):
             world.doctors[plant] = spawn("doctor", *sources, "--for", LISTENS.get(plant, "2500ms"), "--json", "-v")
 
         sources = {plant: plant(world) for plant in PLANTED}
+        examine(plant_went_silent, sources[plant_went_silent])
+        silence_one(world, world.doctors[plant_went_silent])
         for plant, given in sources.items():
-            if plant is not plant_two_simulators:
+            if plant not in (plant_went_silent, plant_two_simulators):
                 examine(plant, given)
         overflow(world, world.doctors[plant_kernel_drop], sources[plant_kernel_drop])
         harness.wait_for(lambda: time.monotonic() - begin > 3, what="a difference of the clocks")
@@ -435,6 +484,143 @@ def test_each_planted_fault_has_its_finding(spawn, tmp_path):
         examine(plant_two_simulators, sources[plant_two_simulators])
         results = {plant.__name__: ids(doctor.wait()) for plant, doctor in world.doctors.items()}
     assert results == {plant.__name__: {finding} if finding else set() for plant, finding in PLANTED.items()}
+
+
+@pytest.fixture
+def world(spawn, tmp_path):
+    with contextlib.ExitStack() as stack:
+        its = World(spawn, tmp_path, stack)
+        stack.callback(its.close)
+        yield its
+
+
+class SmallRing:
+    """A router with a ring of 64 KiB, which holds fewer than 800 frames of a vehicle."""
+
+    def __init__(self, world, run, fault, *arguments):
+        port = world.port()
+        _, self.source = world.router(fault, f"udpin://127.0.0.1:{port}", "--ring-capacity", "64k", *arguments)
+        self.name, self.run = self.source.removeprefix("shm://"), run
+        self.sock, self.vehicle = world.udp_to(port), Vehicle()
+
+    def send(self, count):
+        for _ in range(count):
+            self.sock.send(self.vehicle.next())
+
+    def readers(self):
+        return json.loads(self.run("shm", "stat", self.name, "--json").stdout)["readers"]
+
+    def send_until(self, counter, value):
+        """Sends a few frames at a time, until a counter of the router's page has grown by so many."""
+        def count():
+            return json.loads(self.run("stat", self.name, "--json").lines[0])[counter]
+
+        def is_reached():
+            self.send(10)
+            return count() >= before + value
+        before = count()
+        harness.wait_for(is_reached, what=f"{value} {counter}")
+
+
+def findings_at_end(doctor):
+    return {finding["id"] for finding in json.loads(doctor.stop().stdout)["findings"]}
+    return {finding["id"] for finding in json.loads(doctor.stop().stdout)["findings"]}
+
+
+def test_a_ring_that_overtook_the_doctor_is_found(world, run):
+    ring = SmallRing(world, run, "lapped")
+    doctor = world.spawn("doctor", ring.source, "--for", "10m", "--json", "-v")
+    harness.wait_for(ring.readers, what="the doctor to read the ring")
+    ring.send_until("ring_records", 1)
+    with standing_still(doctor):
+        ring.send(1000)
+        ring.send_until("ring_records", 850)
+    harness.wait_for(lambda: ring.readers()[0]["behind_bytes"] == 0, what="the doctor to read what is left")
+    assert findings_at_end(doctor) == {"ring-lapped"}
+
+
+def test_a_ring_that_a_reader_keeps_full_is_found(world, run):
+    """Frames that the ring misses are no loss before this machine, though sequence numbers are missing."""
+    ring = SmallRing(world, run, "full", "--ring-full", "drop_newest")
+    reader = world.spawn("shm", "read", ring.name, "--lossless", "--json")
+    doctor = world.spawn("doctor", ring.source, "--for", "10m", "--json", "-v")
+    harness.wait_for(lambda: len(ring.readers()) == 2, what="both to read the ring")
+    with standing_still(reader):
+        ring.send(600)
+        ring.send_until("ring_dropped", 20)
+    ring.send_until("ring_records", 100)
+    harness.wait_for(lambda: all(one["behind_bytes"] == 0 for one in ring.readers()), what="the doctor to read all")
+    assert findings_at_end(doctor) == {"ring-dropped"}
+
+
+class DoctorOnATerminal:
+    """Its user can halt the terminal with Ctrl-S. Then the doctor's progress, and so all of it, waits."""
+
+    def __init__(self, program, world, source):
+        self.user, screen = pty.openpty()
+        for end in (self.user, screen):
+            world.stack.callback(os.close, end)
+        os.set_blocking(self.user, False)
+        self.output = world.folder / "found.json"
+        with self.output.open("wb") as found:
+            self.process = subprocess.Popen([program, "doctor", source, "--for", "10m", "--json"],
+                                            env=harness.environment(), stdout=found, stderr=screen)
+        world.stack.callback(self.process.kill)
+        self.wait_for_progress()
+
+    def shown(self):
+        with contextlib.suppress(BlockingIOError):
+            return os.read(self.user, 1 << 16)
+        return b""
+
+    def wait_for_progress(self):
+        harness.wait_for(lambda: b"left" in self.shown(), what="the doctor's progress")
+
+    def halt(self):
+        os.write(self.user, b"\x13")
+        call = pathlib.Path(f"/proc/{self.process.pid}/syscall")  # its number, then its arguments
+        harness.wait_for(lambda: call.read_text().split()[1:2] == ["0x2"], what="a write to stderr that waits")
+
+    def resume(self):
+        os.write(self.user, b"\x11")
+        self.wait_for_progress()
+
+    def findings(self):
+        self.process.send_signal(signal.SIGINT)
+        self.process.wait(harness.DEFAULT_TIMEOUT_S)
+        return {finding["id"] for finding in json.loads(self.output.read_text())["findings"]}
+
+
+def test_a_doctor_that_is_too_slow_finds_itself(world, program):
+    port = world.port(socket.SOCK_STREAM)
+    doctor = DoctorOnATerminal(program, world, f"tcpin://127.0.0.1:{port}")
+    vehicle = Vehicle()
+    beat = vehicle.next()
+    images = b"".join(vehicle.pack(mavlink.MAVLink_encapsulated_data_message(n, [*range(1, 254)]))
+                      for n in range(40 * 256))  # their sequence numbers continue when all are sent again
+    with socket.create_connection(("127.0.0.1", port)) as sock:
+        doctor.halt()
+        sock.sendall(beat)
+        for _ in range(30):  # 80 MB; it keeps 64 MiB
+            sock.sendall(images)
+        sock.shutdown(socket.SHUT_WR)
+        sock.settimeout(harness.DEFAULT_TIMEOUT_S)
+        assert sock.recv(1) == b""  # it has received all, and closes
+    doctor.resume()
+    assert doctor.findings() == {"too-slow"}
+
+
+def test_a_halted_terminal_is_no_fault_of_the_vehicle(world, program):
+    """The vehicle's clock runs on while the doctor waits; it has not jumped."""
+    sock, vehicle, source = world.sender()
+    doctor = DoctorOnATerminal(program, world, *source)
+    world.repeat(lambda n: sock.send(vehicle.next()))
+    harness.wait_for(lambda: vehicle.count > 60, what="frames before")
+    doctor.halt()
+    begin = time.monotonic()
+    harness.wait_for(lambda: time.monotonic() - begin > 3, what="more than the tolerance of clocks")
+    doctor.resume()
+    assert doctor.findings() == set()
 
 
 def test_the_guide_has_each_finding():

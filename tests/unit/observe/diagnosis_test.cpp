@@ -77,6 +77,16 @@ TEST_F(DiagnosisTest, OurOwnLossIsNotTheRadios) {
     EXPECT_THAT(ids(evidence), ElementsAre("kernel-drop"));
 }
 
+TEST_F(DiagnosisTest, WhatARingMissesIsNotTheRadiosLoss) {
+    source().kind = Listened::Kind::ring;
+    loss().lost = 300;
+    evidence.hops_before = {{.name = "router", .losses = {{"ring_dropped", 7}}}};
+    evidence.hops_after = evidence.hops_before;
+    EXPECT_THAT(ids(evidence), ElementsAre("lost-before"));
+    evidence.hops_after.front().losses.front().count = 307;
+    EXPECT_THAT(ids(evidence), ElementsAre("ring-dropped"));
+}
+
 TEST_F(DiagnosisTest, DamagedFramesExplainGaps) {
     loss().lost = 60;
     count("crc_error", 60);
@@ -179,6 +189,8 @@ TEST_F(DiagnosisTest, JunkOnASerialPortIsAWrongBaudRate) {
     count("junk_bytes", 1000);
     EXPECT_THAT(ids(evidence), ElementsAre("not-mavlink"));
     source().kind = Listened::Kind::serial;
+    EXPECT_THAT(ids(evidence), ElementsAre("wrong-baud"));
+    evidence.bad_checksums = {{one, MessageId{74}, 4}};  // junk has the ids of messages here and there
     EXPECT_THAT(ids(evidence), ElementsAre("wrong-baud"));
 }
 
