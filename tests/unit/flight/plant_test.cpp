@@ -130,7 +130,9 @@ TEST(PlantTest, MotorsOfTheIrisGetFasterSoonerThanSlower) {
     EXPECT_NEAR(body.plant->thrust(), std::exp(-2), 1e-9);
 }
 
-// Of PX4's airframe reference. Each row is a motor's place (forward, right) in turns of the arm, and its direction.
+// PX4's tables: CA_ROTORn_PX, _PY and the sign of _KM of its airframes 4001, 6001, 7001 and 8001, and, for the frames
+// without such parameters, positions and directions of its geometries quad_plus and octa_plus. Each row is a motor's
+// place (forward, right) in turns of the arm, and its direction.
 struct FrameCase {
     Frame frame;
     std::vector<std::array<double, 3>> motors;
