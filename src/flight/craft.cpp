@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "flight/craft.hpp"
 
+#include <algorithm>
+
 #include "flight/physics/atmosphere.hpp"
 #include "flight/physics/magnetic_field.hpp"
 
@@ -13,6 +15,14 @@ constexpr std::uint64_t wind_stream = 0x77696e64;  // the wind draws from number
 // Only a multicopter can fly at random.
 Kind kind_of(const VehicleOptions& options) noexcept {
     return options.motion == Motion::random ? Kind::quad : options.kind;
+}
+
+// The set-point for the true motion with which an estimate of this error meets the given one.
+Setpoint corrected(Setpoint setpoint, const Vector3& error, const Vector3& rate) {
+    setpoint.position -= error;
+    setpoint.from -= error;
+    setpoint.velocity -= rate;
+    return setpoint;
 }
 
 GeoPoint geo_of(const Home& home) { return {home.latitude_deg, home.longitude_deg, home.altitude_m}; }
@@ -41,14 +51,19 @@ void Craft::place(const Vector3& position, double heading) {
 void Craft::reboot() {
     time_ = {};
     sensors_.acquire_gps(false);
-    sensors_.set_failures({});
+    sensors_.restart_estimate();
     battery_.replace();
     has_origin_ = false;
     home_.reset();
 }
 
+// The pilot knows the true motion, and the autopilot only its estimate.
 void Craft::step(const Setpoint& setpoint, bool armed) {
     wind_.step();
+    if (sensors_.is_deceived()) {
+        const Setpoint wanted = corrected(setpoint, sensors_.estimate_error(), sensors_.estimate_error_rate());
+        return move(pilot_->step(wanted, armed, *plant_, surroundings()), armed);
+    }
     move(pilot_->step(setpoint, armed, *plant_, surroundings()), armed);
 }
 
@@ -60,10 +75,32 @@ void Craft::step(const Outputs& outputs, bool armed) {
 void Craft::move(const Outputs& outputs, bool armed) {
     time_ += step_time;
     outputs_ = outputs;
-    plant_->step(outputs, surroundings(), step_s);
+    if (sensors_.failures().stopped_motors != 0) stop_failed_motors();
+    plant_->step(outputs_, surroundings(), step_s);
     battery_.step(plant_->load(), step_s);
     if (!armed) battery_.rest(step_s);
     sense();
+}
+
+void Craft::stop_failed_motors() noexcept {
+    const Channels& channels = plant_->channels();
+    for (std::size_t i = 0, number = 0; i < channels.used; ++i)
+        if (channels.is_motor[i] && (sensors_.failures().stopped_motors >> number++ & 1) != 0) outputs_[i] = 0;
+}
+
+void Craft::set_failures(const Failures& failures) {
+    if (sensors_.failures().rangefinder == Failure::none)
+        last_range_ = std::max(position().altitude - ground_altitude_, 0.0);
+    sensors_.set_failures(failures);
+    battery_.report_empty(failures.battery == Failure::off);
+}
+
+InnerTargets Craft::targets() const {
+    InnerTargets targets = pilot_->targets();
+    if (!sensors_.is_deceived()) return targets;
+    targets.position += sensors_.estimate_error();
+    targets.velocity += sensors_.estimate_error_rate();
+    return targets;
 }
 
 Surroundings Craft::surroundings() const {

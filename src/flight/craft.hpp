@@ -35,13 +35,18 @@ public:
     // The outputs of the last step.
     [[nodiscard]] const Outputs& outputs() const noexcept { return outputs_; }
     // Of the craft's own pilot.
-    [[nodiscard]] const InnerTargets& targets() const noexcept { return pilot_->targets(); }
+    [[nodiscard]] InnerTargets targets() const;
     [[nodiscard]] const Estimate& estimate() const noexcept { return sensors_.estimate(); }
     [[nodiscard]] const Vector3& wind() const noexcept { return wind_.velocity(); }
     [[nodiscard]] const Sensors& sensors() const noexcept { return sensors_; }
     [[nodiscard]] Sensors& sensors() noexcept { return sensors_; }
     [[nodiscard]] const Battery& battery() const noexcept { return battery_; }
     [[nodiscard]] Battery& battery() noexcept { return battery_; }
+
+    void set_failures(const Failures& failures);
+    // The last range before the range finder failed, m.
+    [[nodiscard]] double last_range() const noexcept { return last_range_; }
+    void set_deceptions(const Deceptions& deceptions) { sensors_.set_deceptions(deceptions); }
 
     [[nodiscard]] const LocalFrame& frame() const noexcept { return frame_; }
     // True once a client has set the origin, or once a position was known.
@@ -66,6 +71,7 @@ public:
 private:
     [[nodiscard]] Surroundings surroundings() const;
     void move(const Outputs& outputs, bool armed);
+    void stop_failed_motors() noexcept;
     void sense();
 
     const Kind kind_;
@@ -79,7 +85,7 @@ private:
     LocalFrame frame_;
     std::optional<GeoPoint> home_;
     Vector3 home_place_ = Vector3::Zero();
-    double home_yaw_ = 0, air_density_;
+    double home_yaw_ = 0, air_density_, last_range_ = 0;
     FlightTime time_{};
     bool has_origin_ = false;
     mutable GeoPoint position_;

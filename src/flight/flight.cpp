@@ -70,6 +70,8 @@ void Flight::move_origin(const GeoPoint& origin) {
 void Flight::reboot() {
     const GeoPoint here = context_.craft.position();
     move_origin({here.latitude, here.longitude, context_.craft.ground_altitude()});
+    injected_ = {};
+    apply_failures();
     context_.craft.reboot();
     inputs_ = {};
     failsafes_.reset();

@@ -18,6 +18,7 @@
 #include <optional>
 
 #include "flight/context.hpp"
+#include "flight/faults.hpp"
 #include "flight/inputs.hpp"
 #include "flight/mode.hpp"
 #include "flight/navigation/navigator.hpp"
@@ -75,7 +76,10 @@ public:
     Outcome set_origin(const GeoPoint& origin);
     Outcome terminate();
     Outcome enable_fence(bool enabled);
-    Outcome inject_failures(const SensorFailures& failures);
+    // Replaces the failures that clients injected. They end with a boot.
+    Outcome inject_failures(const Failures& failures);
+    // A fault by the simulator's operator. Those of the heartbeat and the radio are kept for `is_off`.
+    Outcome set_fault(const Fault& fault);
     Outcome set_battery(double share);
     Outcome restore_battery();  // to its charge at the start
 
@@ -114,7 +118,10 @@ public:
     [[nodiscard]] const Sensors& sensors() const noexcept { return context_.craft.sensors(); }
     [[nodiscard]] const Plant& plant() const noexcept { return context_.craft.plant(); }
     [[nodiscard]] const Outputs& outputs() const noexcept { return context_.craft.outputs(); }
-    [[nodiscard]] const InnerTargets& inner_targets() const noexcept { return context_.craft.targets(); }
+    [[nodiscard]] InnerTargets inner_targets() const { return context_.craft.targets(); }
+    [[nodiscard]] double last_range() const noexcept { return context_.craft.last_range(); }
+    // True if the operator switched this part off.
+    [[nodiscard]] bool is_off(FaultPart part) const noexcept { return faults_.has(part); }
     [[nodiscard]] const Battery& battery() const noexcept { return context_.craft.battery(); }
     [[nodiscard]] const Vector3& wind() const noexcept { return context_.craft.wind(); }
     [[nodiscard]] const Setpoint& setpoint() const noexcept { return navigator_.guidance().setpoint(); }
@@ -169,6 +176,7 @@ private:
         return outcome;
     }
     void move_origin(const GeoPoint& origin);
+    void apply_failures();
     Outcome begin_takeoff(const TakeoffOrder& order);
     Outcome begin_reposition(const RepositionOrder& order);
     Outcome begin_orbit(const OrbitOrder& order);
@@ -185,6 +193,8 @@ private:
     const Parameters& parameters_;
     FlightContext context_;
     Inputs inputs_;
+    Failures injected_;
+    Faults faults_;
     Navigator navigator_;
     LandedDetector detector_;
     Commander commander_;

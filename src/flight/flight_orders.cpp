@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The orders of Flight: what is refused, and who carries out the rest.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "flight/flight.hpp"
+#include "mavloom/base/counted.hpp"
 
 namespace mavloom::flight {
 
@@ -250,12 +253,35 @@ Outcome Flight::enable_fence(bool enabled) {
     return Result::accepted;
 }
 
-Outcome Flight::inject_failures(const SensorFailures& failures) {
+Outcome Flight::inject_failures(const Failures& failures) {
     if (!tuning().may_inject_failures) return Result::denied;
     return carry_out([&]() -> Outcome {
-        context_.craft.sensors().set_failures(failures);
+        injected_ = failures;
+        apply_failures();
         return Result::accepted;
     });
+}
+
+Outcome Flight::set_fault(const Fault& fault) {
+    if (fault.part == FaultPart::battery && fault.kind == FaultKind::charge) return set_battery(fault.numbers[0] / 100);
+    const bool is_numbered = fault.part == FaultPart::motor || fault.part == FaultPart::esc;
+    const auto motors = std::ranges::count(plant().channels().is_motor, true);
+    if (is_numbered && motors == 0) return {Result::unsupported, "a rover's motor does not fail"};
+    if (is_numbered && fault.count != 0 && fault.numbers[0] > static_cast<double>(motors))
+        return {Result::denied,
+                fmt::format("the vehicle has {}", counted(static_cast<std::uint64_t>(motors), "motor"))};
+    return carry_out([&]() -> Outcome {
+        if (fault.kind == FaultKind::ok && (fault.part == FaultPart::battery || fault.part == FaultPart::all))
+            context_.craft.battery().restore();
+        faults_.set(fault);
+        apply_failures();
+        return Result::accepted;
+    });
+}
+
+void Flight::apply_failures() {
+    context_.craft.set_failures(merged(injected_, faults_.failures()));
+    context_.craft.set_deceptions(faults_.deceptions());
 }
 
 Outcome Flight::set_battery(double share) {

@@ -143,10 +143,20 @@ void Parts::put_parameter(std::string_view name, double value) {
     if (const auto index = parameters.find(name)) parameter_service->announce(*index);
 }
 
+Outcome Parts::set_fault(const Fault& fault) {
+    if (fault.part == FaultPart::sequence) radio.restart_sequences();
+    else if (fault.part == FaultPart::autopilot) reboot(true);
+    else if (Outcome outcome = flight.set_fault(fault); !outcome.is_accepted()) return outcome;
+    radio.set_off(flight.is_off(FaultPart::radio));
+    radio.withhold_heartbeat(flight.is_off(FaultPart::heartbeat));
+    return Result::accepted;
+}
+
 void Parts::begin_silence() {
     const Nanoseconds length = std::exchange(wanted_silence_, Nanoseconds{0});
     silent_until_ = length == Nanoseconds::max() ? FlightTime::max() : now.flight + length;
     radio.set_silent(true);
+    (void)flight.disarm(true, OrderedBy::vehicle);  // without its autopilot, it falls
 }
 
 void Parts::end_silence() {
@@ -154,6 +164,7 @@ void Parts::end_silence() {
     silent_until_ = FlightTime::min();
     radio.set_silent(false);
     for (Service* const service : services) service->reboot();
+    failures.clear();
     flight.reboot();
     take_system();
     streams.reset(booted);

@@ -18,6 +18,7 @@
 #include "flight/flight.hpp"
 #include "mavloom/sim/vehicle.hpp"
 #include "sim/command/commands.hpp"
+#include "sim/command/failure_table.hpp"
 #include "sim/payload/servo_outputs.hpp"
 #include "sim/radio/radio.hpp"
 #include "sim/service/announcer.hpp"
@@ -51,6 +52,7 @@ struct Parts final : FlightObserver {
     Streams streams;
     Announcer announcer;
     Commands commands;
+    FailureTable failures;  // that clients injected
     ServoOutputs servos;
 
     std::unique_ptr<Gimbal> gimbal;  // null: none is simulated
@@ -92,6 +94,8 @@ struct Parts final : FlightObserver {
     // Takes effect after the current call: the vehicle is silent for some seconds, then runs as after a boot. Without
     // `restarts`, it stays silent for good.
     void reboot(bool restarts) noexcept { wanted_silence_ = restarts ? reboot_time : Nanoseconds::max(); }
+    // A fault by the simulator's operator. The flight's go there.
+    Outcome set_fault(const Fault& fault);
     [[nodiscard]] bool is_silent(FlightTime time) const noexcept { return time < silent_until_; }
     [[nodiscard]] FlightTime silent_until() const noexcept { return silent_until_; }
 

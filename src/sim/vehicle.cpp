@@ -67,7 +67,9 @@ void Vehicle::close(LinkId link) {
 void Vehicle::receive(LinkId link, const wire::FrameView& frame, const wire::MessageInfo* info, Moment now) {
     Parts& parts = *parts_;
     parts.radio.note_received(link, frame.size());
-    if (info == nullptr || parts.is_silent(now.flight) || !is_for(parts.radio.system(), frame, *info)) return;
+    if (info == nullptr || parts.radio.is_off() || parts.is_silent(now.flight) ||
+        !is_for(parts.radio.system(), frame, *info))
+        return;
     Service* const service = parts.service_for(info->id);
     if (service == nullptr || !parts.guard->admits(frame, parts.signing_time(now))) return;
     advance(now);
@@ -146,6 +148,12 @@ SetupResult<void> Vehicle::set_parameter(std::string_view name, double value) {
         return setup_error(SetupCode::usage, "the parameter takes whole numbers");
     parts_->put_parameter(name, value);
     return {};
+}
+
+SetupResult<void> Vehicle::fail(const Fault& fault) {
+    auto done = of_outcome(parts_->set_fault(fault));
+    parts_->report_changes();
+    return done;
 }
 
 SystemId Vehicle::system() const noexcept { return parts_->radio.system(); }

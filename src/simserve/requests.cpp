@@ -13,6 +13,7 @@
 #include "mavloom/base/shown.hpp"
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/simserve/report.hpp"
+#include "simserve/scenario/vehicle_fault.hpp"
 
 namespace mavloom::simserve {
 
@@ -144,6 +145,12 @@ Report parameter(Simulator& simulator, const Json& request) {
     return vehicles ? show_parameter(*vehicles, name) : failed(vehicles.error().text);
 }
 
+Report fail_part(Simulator& simulator, const Json& request) {
+    const auto fault = parse_vehicle_fault(text_at(request, "fault"));
+    if (!fault) return failed(fault.error().text);
+    return state_of(order(simulator, request, [&](sim::Vehicle& vehicle) { return vehicle.fail(*fault); }));
+}
+
 Report add(Simulator& simulator, const std::string& url) {
     const auto endpoint = endpoint::parse_endpoint(url);
     if (!endpoint) return failed(endpoint.error().text);
@@ -193,6 +200,7 @@ constexpr std::array commands{
     Command{"goto", go_to},
     Command{"mode", set_mode},
     Command{"param", parameter},
+    Command{"fail", fail_part},
     Command{"pause", pause},
     Command{"resume", resume},
     Command{"step", step},

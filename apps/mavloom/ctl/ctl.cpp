@@ -67,6 +67,7 @@ const std::vector<Action>& actions() {
         {"resume", {}, 0, {}, true},
         {"step", {"seconds"}, 1, "step takes a time of the flight, such as 10ms", true},
         {"wait", {"state", "metres"}, 1, "wait takes ready, armed, disarmed, landed, or alt and metres", true},
+        {"fail", {"fault"}, 2, "fail takes a part of the vehicle and its fault, as in fail gps off", true},
         {"param", {"name", "value"}, 1, "param takes the name of a parameter, and its new value if it is to be set", true},
     };
     return all;
@@ -92,6 +93,10 @@ SetupResult<double> seconds_of(const std::string& text) {
 
 SetupResult<void> add_arguments(const CtlOptions& options, const Action& action, Json& request) {
     if (options.arguments.size() < action.fewest) return setup_error(SetupCode::usage, std::string(action.missing));
+    if (action.name == "fail") {
+        request["fault"] = fmt::format("{}", fmt::join(options.arguments, " "));
+        return {};
+    }
     if (options.arguments.size() > action.arguments.size())
         return setup_error(SetupCode::usage, action.arguments.empty()
                                                  ? fmt::format("{} takes no argument", action.name)
@@ -230,11 +235,13 @@ Run declare_ctl(Arguments command, const Common&) {
     command.add_option(
         "name", "NAME", options->name,
         "the --name of a router or simulator; by default router, or sim. Without it, lists those that run");
-    command.add_option("action", "ACTION", options->action,
-                       "links, stats, add URL, remove NAME, fault NAME FAULTS (or off); of a router: routes; of a "
-                       "simulator: streams, state, arm, disarm, takeoff ALTITUDE, land, rtl, goto LATITUDE LONGITUDE "
-                       "[ALTITUDE], mode NAME, param NAME "
-                       "[VALUE], wait STATE (ready, armed, disarmed, landed, alt METRES), pause, resume, step TIME");
+    command.add_option(
+        "action", "ACTION", options->action,
+        "links, stats, add URL, remove NAME, fault NAME FAULTS (or off); of a router: routes; of a "
+        "simulator: streams, state, arm, disarm, takeoff ALTITUDE, land, rtl, goto LATITUDE LONGITUDE "
+        "[ALTITUDE], mode NAME, param NAME "
+        "[VALUE], fail PART FAULT, wait STATE (ready, armed, disarmed, landed, alt METRES), pause, resume, step "
+        "TIME");
     command.add_option("argument", "ARGUMENT", options->arguments, "what the action takes");
     command.add_option("--system", "N", options->system, "the vehicle with this system id (default: all)");
     command.add_option("--for", "TIME", options->limit, "`wait` ends after this time, with status 1")
@@ -255,6 +262,7 @@ Run declare_ctl(Arguments command, const Common&) {
         "  mavloom ctl sim wait ready\n"
         "  mavloom ctl sim takeoff 10\n"
         "  mavloom ctl sim wait alt 10 --for 30s\n"
+        "  mavloom ctl sim fail gps off\n"
         "  mavloom ctl sim mode Return --system 3");
     return [options] { return ctl(*options); };
 }

@@ -2,6 +2,7 @@
 // Makes the types of module flight available as names of sim: sim::Kind, sim::Home, sim::Moment.
 #pragma once
 
+#include "mavloom/flight/fault.hpp"    // IWYU pragma: export
 #include "mavloom/flight/moment.hpp"   // IWYU pragma: export
 #include "mavloom/flight/options.hpp"  // IWYU pragma: export
 #include "mavloom/flight/status.hpp"   // IWYU pragma: export

@@ -85,6 +85,8 @@ public:
     // A mode's name in any vocabulary of mavloom/message/modes.hpp.
     [[nodiscard]] SetupResult<void> set_mode(std::string_view name);
     [[nodiscard]] SetupResult<void> set_parameter(std::string_view name, double value);
+    // A fault on purpose. `fault` has one of the forms of fault_forms().
+    [[nodiscard]] SetupResult<void> fail(const Fault& fault);
 
     // A client may change the system id through a parameter. The new id takes effect after a reboot, unless `is_free`
     // returns false because another vehicle has that id. Without `is_free`, every id counts as free.

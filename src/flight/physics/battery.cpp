@@ -28,7 +28,7 @@ Battery::Battery(const BatteryOptions& options, bool charges_at_rest) noexcept
       cells_(options.cells) {}
 
 void Battery::step(double load, double dt) noexcept {
-    current_ = remaining() <= 0 ? 0 : idle_current_ + load * hover_current_;
+    current_ = charge() <= 0 ? 0 : idle_current_ + load * hover_current_;
     average_current_ += (current_ - average_current_) * dt / average_tau;
     used_mah_ = std::min(used_mah_ + current_ * dt / 3.6, capacity_mah_);
     used_joule_ += current_ * voltage() * dt;
@@ -48,10 +48,10 @@ void Battery::replace() noexcept {
     used_joule_ = current_ = average_current_ = 0;
 }
 
-double Battery::remaining() const noexcept { return std::max(0.0, 1 - used_mah_ / capacity_mah_); }
+double Battery::charge() const noexcept { return std::max(0.0, 1 - used_mah_ / capacity_mah_); }
 
 double Battery::voltage() const noexcept {
-    const double at_rest = empty_cell + (full_cell - empty_cell) * remaining();
+    const double at_rest = empty_cell + (full_cell - empty_cell) * charge();
     return cells_ * (at_rest - current_ / hover_current_ * loss_at_hover);
 }
 
@@ -60,6 +60,6 @@ double Battery::seconds_left() const noexcept {
     return (capacity_mah_ - used_mah_) * 3.6 / average_current_;
 }
 
-double Battery::supply() const noexcept { return remaining() > 0 ? voltage() / (cells_ * full_cell) : 0; }
+double Battery::supply() const noexcept { return charge() > 0 ? voltage() / (cells_ * full_cell) : 0; }
 
 }  // namespace mavloom::flight

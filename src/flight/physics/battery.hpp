@@ -17,6 +17,8 @@ public:
     void step(double load, double dt) noexcept;
     // Sets the charge to `share` (0 to 1). Until `restore`, `rest` stops at that level. For tests of fail-safes.
     void set_remaining(double share) noexcept;
+    // It reports that it is empty, and carries the vehicle all the same.
+    void report_empty(bool is_empty) noexcept { reports_empty_ = is_empty; }
     // The charge is that at the start.
     void restore() noexcept { used_mah_ = used_after_rest_ = used_at_start_; }
     // Call it while the vehicle is disarmed: charges for `dt` seconds, up to the charge at the start.
@@ -25,9 +27,9 @@ public:
     void replace() noexcept;
 
     [[nodiscard]] std::uint8_t cells() const noexcept { return cells_; }
-    [[nodiscard]] double remaining() const noexcept;                    // 0 to 1
-    [[nodiscard]] double current() const noexcept { return current_; }  // A
-    [[nodiscard]] double voltage() const noexcept;                      // V, of all cells, under the current load
+    [[nodiscard]] double remaining() const noexcept { return reports_empty_ ? 0 : charge(); }  // 0 to 1, as reported
+    [[nodiscard]] double current() const noexcept { return current_; }                         // A
+    [[nodiscard]] double voltage() const noexcept;  // V, of all cells, under the current load
     [[nodiscard]] double used_mah() const noexcept { return used_mah_; }
     [[nodiscard]] double used_joule() const noexcept { return used_joule_; }
     [[nodiscard]] double capacity_mah() const noexcept { return capacity_mah_; }
@@ -37,11 +39,14 @@ public:
     [[nodiscard]] double supply() const noexcept;
 
 private:
+    [[nodiscard]] double charge() const noexcept;  // 0 to 1
+
     double capacity_mah_, hover_current_, idle_current_;  // A
     bool charges_at_rest_;
     double used_at_start_;  // never changes
     double used_mah_, used_after_rest_, used_joule_ = 0, current_ = 0, average_current_ = 0;
     std::uint8_t cells_;
+    bool reports_empty_ = false;
 };
 
 }  // namespace mavloom::flight

@@ -65,6 +65,7 @@ Sensors::Sensors(bool has_noise, std::uint64_t seed, const Vector3& magnetic_fie
 void Sensors::step(const Kinematics& truth, const Vector3& air_velocity, bool at_rest, double origin_altitude,
                    double air_density) {
     const double share = has_noise_ ? (at_rest ? calm_share : 1) : 0;
+    if (is_deceived_) step_deceptions();
     step_estimate(truth, share);
     step_imu(truth);
     step_vibration(at_rest);
@@ -89,14 +90,37 @@ void Sensors::step_estimate(const Kinematics& truth, double share) {
     const Vector3 jitter = noise(Vector3::Constant(share * estimated_rate_sigma));
     estimate_.rates = truth.rates + rates_of(attitude_wander_) + jitter;
     estimate_.heading = wrap_2pi(estimate_.euler.yaw);
+    if (!is_deceived_) return;
+    estimate_.position += estimate_error();
+    estimate_.velocity += estimate_error_rate();
+}
+
+void Sensors::set_deceptions(const Deceptions& deceptions) {
+    deceptions_ = deceptions;
+    is_deceived_ |= deceptions.any();
+    if (deceptions.gps_drift.isZero(0)) gps_drifted_.setZero();
+    if (deceptions.barometer_drift == 0) barometer_drifted_ = 0;
+}
+
+void Sensors::step_deceptions() {
+    gps_drifted_ += deceptions_.gps_drift * step_s;
+    barometer_drifted_ += deceptions_.barometer_drift * step_s;
+    horizontal_error_.step(gps_error());
+    vertical_error_.step({0, 0, -barometer_error()});
+    is_deceived_ = deceptions_.any() || horizontal_error_.any() || vertical_error_.any();
+}
+
+void Sensors::restart_estimate() {
+    horizontal_error_.restart(gps_error());
+    vertical_error_.restart({0, 0, -barometer_error()});
 }
 
 void Sensors::step_imu(const Kinematics& truth) {
     const Vector3 force = truth.attitude.conjugate() * (truth.acceleration - Vector3(0, 0, gravity));
     const Vector3 shaking = noise(Vector3::Constant(accelerometer_sigma));
-    if (!failures_.accelerometer_off) imu_.acceleration = force + shaking;
+    if (!is_frozen(failures_.accelerometer)) imu_.acceleration = force + shaking;
     const Vector3 jitter = noise(Vector3::Constant(gyroscope_sigma));
-    if (!failures_.gyroscope_off) imu_.rates = truth.rates + jitter + values(gyroscope_bias_);
+    if (!is_frozen(failures_.gyroscope)) imu_.rates = truth.rates + jitter + values(gyroscope_bias_);
 }
 
 // The level follows the motors within a second; a touchdown adds a shake that fades.
@@ -114,30 +138,44 @@ void Sensors::step_bias() {
 
 void Sensors::step_magnetometer(const Quaternion& attitude) {
     const Vector3 jitter = noise(field_sigma);
-    if (!failures_.magnetometer_off) imu_.magnetic = attitude.conjugate() * magnetic_field_ + jitter;
+    if (is_frozen(failures_.magnetometer)) return;
+    Vector3 field = magnetic_field_;
+    if (deceptions_.compass_turn != 0)
+        field = Eigen::AngleAxisd(-deceptions_.compass_turn, Vector3::UnitZ()) * magnetic_field_;
+    imu_.magnetic = attitude.conjugate() * field + jitter;
 }
 
 void Sensors::step_barometer(const Kinematics& truth, const Vector3& air_velocity, double altitude, double air_density) {
     const Vector3 jitter = noise({pressure_sigma, airspeed_sigma, 0});
     const double reading = has_noise_ ? random_.uniform(-temperature_step / 2, temperature_step / 2) : 0;
     const double along = (truth.attitude.conjugate() * air_velocity).x() + jitter.y();
-    imu_.differential_hpa = std::copysign(0.5 * air_density * along * along, along) / 100;
-    if (failures_.barometer_off) return;
-    imu_.pressure_hpa = pressure_at(altitude) + jitter.x();
+    step_airspeed(along, air_density);
+    if (is_frozen(failures_.barometer)) return;
+    imu_.pressure_hpa = pressure_at(altitude + barometer_error()) + jitter.x();
     imu_.pressure_altitude = altitude_of(imu_.pressure_hpa);
     imu_.temperature_c = temperature_at(altitude) - 273.15 + self_heating + reading;
+}
+
+// A blocked pitot tube passes less pressure, 30 % after a second.
+void Sensors::step_airspeed(double along, double air_density) {
+    constexpr double least = 0.3, blocking_time = 1;  // s
+    constexpr double step = (1 - least) * barometer_period * step_s / blocking_time;
+    open_pitot_ = failures_.airspeed == Failure::wrong ? std::max(open_pitot_ - step, least) : 1;
+    if (is_frozen(failures_.airspeed)) return;
+    imu_.differential_hpa = open_pitot_ * std::copysign(0.5 * air_density * along * along, along) / 100;
 }
 
 void Sensors::step_gps(const Kinematics& truth) {
     if (has_noise_)
         for (auto* const group : {&gps_position_, &gps_velocity_})
             for (GaussMarkov& axis : *group) axis.next(random_);
-    if (failures_.gps_stuck && gps_.fix_type != 0) return;
-    const bool has_fix = has_position();
-    gps_ = {.fix_type = static_cast<std::uint8_t>(has_fix ? 3 : failures_.gps_off ? 0 : 1)};
+    if (failures_.gps == Failure::stuck && gps_.fix_type != 0) return;
+    const bool has_fix = gps_acquired_ && failures_.gps != Failure::off && failures_.gps != Failure::stuck;
+    gps_ = {.fix_type = static_cast<std::uint8_t>(has_fix ? 3 : failures_.gps == Failure::off ? 0 : 1)};
     if (!has_fix) return;
-    gps_.position = truth.position + values(gps_position_);
-    gps_.velocity = truth.velocity + values(gps_velocity_);
+    if (failures_.gps == Failure::wrong) gps_.fix_type = failures_.wrong_fix;
+    gps_.position = truth.position + values(gps_position_) + gps_error();
+    gps_.velocity = truth.velocity + values(gps_velocity_) + deceptions_.gps_drift;
     gps_.satellites = 10;
     gps_.hdop = 0.7;
     gps_.vdop = 1.1;
@@ -157,7 +195,11 @@ Vector3 Sensors::noise(const Vector3& sigma) {
     return sigma.cwiseProduct(Vector3(x, y, z));
 }
 
-bool Sensors::has_position() const noexcept { return gps_acquired_ && !failures_.gps_off && !failures_.gps_stuck; }
+bool Sensors::has_position() const noexcept {
+    constexpr std::uint8_t three_dimensions = 3;
+    return gps_acquired_ && (failures_.gps == Failure::none ||
+                             (failures_.gps == Failure::wrong && failures_.wrong_fix >= three_dimensions));
+}
 
 double Sensors::position_accuracy() const noexcept { return has_position() ? 0.3 : 50; }
 

@@ -6,6 +6,8 @@
 // The magnitudes are those of PX4's built-in simulator (docs/design/simulator.md).
 #pragma once
 
+#include "flight/physics/estimate_error.hpp"
+#include "flight/physics/failures.hpp"
 #include "flight/physics/geodesy.hpp"
 #include "flight/physics/noise.hpp"
 #include "flight/plant/plant.hpp"
@@ -36,12 +38,6 @@ struct GpsFix {
     double horizontal_m = 0, vertical_m = 0, speed_m_s = 0;  // accuracies
 };
 
-// Failures that INJECT_FAILURE or a scenario turns on.
-struct SensorFailures {
-    bool gps_off = false, gps_stuck = false, magnetometer_off = false, barometer_off = false, gyroscope_off = false,
-         accelerometer_off = false;
-};
-
 class Sensors {
 public:
     // `magnetic_field` in gauss; north, east, down. It does not change: vehicles do not fly far.
@@ -53,8 +49,16 @@ public:
               double air_density);
     // Like Plant::move_origin.
     void move_origin(const Vector3& by);
-    void set_failures(const SensorFailures& failures) noexcept { failures_ = failures; }
-    [[nodiscard]] const SensorFailures& failures() const noexcept { return failures_; }
+    void set_failures(const Failures& failures) noexcept { failures_ = failures; }
+    [[nodiscard]] const Failures& failures() const noexcept { return failures_; }
+    // A drift begins at 0, and ends with its deception.
+    void set_deceptions(const Deceptions& deceptions);
+    // Of the estimate, by measurements that are wrong on purpose.
+    [[nodiscard]] Vector3 estimate_error() const { return horizontal_error_.value() + vertical_error_.value(); }
+    [[nodiscard]] Vector3 estimate_error_rate() const { return horizontal_error_.rate() + vertical_error_.rate(); }
+    [[nodiscard]] bool is_deceived() const noexcept { return is_deceived_; }
+    // The estimator starts anew, after a boot.
+    void restart_estimate();
     // Sets whether GPS has a fix. Without one, fix_type is 1.
     void acquire_gps(bool acquired) noexcept { gps_acquired_ = acquired; }
 
@@ -78,12 +82,22 @@ private:
     void step_barometer(const Kinematics& truth, const Vector3& air_velocity, double altitude, double air_density);
     void step_gps(const Kinematics& truth);
     void step_estimate(const Kinematics& truth, double share);
+    void step_deceptions();
+    void step_airspeed(double along, double air_density);
+    [[nodiscard]] Vector3 gps_error() const { return deceptions_.gps_jump + gps_drifted_; }
+    [[nodiscard]] double barometer_error() const { return deceptions_.barometer_offset + barometer_drifted_; }
     [[nodiscard]] Vector3 noise(const Vector3& sigma);
 
     Random random_;
     Vector3 magnetic_field_;
     bool has_noise_, gps_acquired_ = false;
-    SensorFailures failures_;
+    Failures failures_;
+    Deceptions deceptions_;
+    bool is_deceived_ = false;  // or was, and the estimate still is
+    Vector3 gps_drifted_ = Vector3::Zero();
+    double barometer_drifted_ = 0;
+    EstimateError horizontal_error_, vertical_error_;
+    double open_pitot_ = 1;  // share of the pressure that arrives
     Wander3 position_wander_, attitude_wander_;
     std::array<GaussMarkov, 3> gps_position_, gps_velocity_;
     std::array<RandomWalk, 3> gyroscope_bias_;

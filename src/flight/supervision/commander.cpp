@@ -50,9 +50,7 @@ void Commander::reboot() {
 bool Commander::is_booted() const noexcept { return context_.now() >= context_.options.ready_after; }
 
 std::uint32_t Commander::unready() const noexcept {
-    const SensorFailures& failures = context_.craft.sensors().failures();
-    const bool has_all_sensors = !failures.gyroscope_off && !failures.accelerometer_off && !failures.magnetometer_off &&
-                                 !failures.barometer_off;
+    const bool has_all_sensors = context_.craft.sensors().failures().has_all_sensors();
     const bool needs_position = context_.tuning.needs_position_to_arm;
     const auto bit = [](bool is_missing, Unready reason) { return is_missing ? std::uint32_t{reason} : 0u; };
     return bit(!is_booted(), unready_booting) |

@@ -179,7 +179,7 @@ bool CompassCalibration::is_usable(std::size_t index) const noexcept {
     };
     const bool is_first = index == 0;
     return value("DEV_ID", is_first ? 1 : 0) != 0 && value("USE", is_first ? 1 : 0) != 0 &&
-           !parts_.flight.sensors().failures().magnetometer_off;
+           !is_frozen(parts_.flight.sensors().failures().magnetometer);
 }
 
 bool CompassCalibration::is_running(FlightTime now) const noexcept {

@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "mavloom/msg/enums/failure_type.hpp"
-#include "mavloom/msg/enums/failure_unit.hpp"
 #include "mavloom/msg/enums/mav_cmd.hpp"
 #include "mavloom/msg/sys_status.hpp"
 #include "sim/calibration/calibration.hpp"
@@ -72,43 +70,21 @@ Outcome calibrate_compass_by_heading(Parts& parts, const Command& command, Momen
     return parts.compass_calibration->calibrate_by_heading(command);
 }
 
-// --- Failures
-
-// The switches of one sensor; null: the vehicle cannot simulate that failure.
-struct FailureSwitch {
-    bool SensorFailures::*off = nullptr;
-    bool SensorFailures::*stuck = nullptr;
-};
-
-FailureSwitch switch_of(std::uint32_t unit) noexcept {
-    switch (unit) {
-        case FAILURE_UNIT_SENSOR_GYRO: return {.off = &SensorFailures::gyroscope_off};
-        case FAILURE_UNIT_SENSOR_ACCEL: return {.off = &SensorFailures::accelerometer_off};
-        case FAILURE_UNIT_SENSOR_MAG: return {.off = &SensorFailures::magnetometer_off};
-        case FAILURE_UNIT_SENSOR_BARO: return {.off = &SensorFailures::barometer_off};
-        case FAILURE_UNIT_SENSOR_GPS: return {.off = &SensorFailures::gps_off, .stuck = &SensorFailures::gps_stuck};
-        default: return {};
-    }
-}
-
-// A battery that is "off" is nearly empty.
-Outcome fail_battery(Parts& parts, std::uint32_t type) {
-    constexpr double nearly_empty = 0.04;
-    if (type == FAILURE_TYPE_OK) return parts.flight.restore_battery();
-    return type == FAILURE_TYPE_OFF ? parts.flight.set_battery(nearly_empty) : Result::unsupported;
+// The instances that the command addresses: by number, or without one (NaN) as bits.
+std::uint16_t failing_instances(const Command& command) noexcept {
+    if (std::isfinite(command.param(3))) return FailureTable::instance(command.whole(3).value_or(17));
+    return static_cast<std::uint16_t>(command.whole(4, FailureTable::all_instances).value_or(0));
 }
 
 Outcome inject_failure(Parts& parts, const Command& command, Moment /*now*/) {
     const auto unit = command.whole(1), type = command.whole(2);
     if (!parts.flight.tuning().may_inject_failures || !unit || !type) return Result::denied;
-    if (*unit == FAILURE_UNIT_SYSTEM_BATTERY) return fail_battery(parts, *type);
-    const FailureSwitch sensor = switch_of(*unit);
-    const bool is_off = *type == FAILURE_TYPE_OFF, is_stuck = *type == FAILURE_TYPE_STUCK;
-    const bool is_known = is_off || *type == FAILURE_TYPE_OK || (is_stuck && sensor.stuck != nullptr);
-    if (sensor.off == nullptr || !is_known) return Result::unsupported;
-    SensorFailures failures = parts.flight.sensors().failures();
-    failures.*sensor.off = is_off;
-    if (sensor.stuck != nullptr) failures.*sensor.stuck = is_stuck;
+    const std::uint16_t instances = failing_instances(command);
+    const Result result = parts.failures.inject(*unit, *type, instances);
+    if (result != Result::accepted || instances == 0) return result;
+    Failures failures = parts.failures.failures();
+    failures.wrong_fix = static_cast<std::uint8_t>(std::clamp(parts.parameters.get("SYS_FAIL_GPS_WRG", 2), 0.0, 8.0));
+    parts.on_text(Severity::warning, FailureTable::text(*unit, *type, instances));
     return parts.flight.inject_failures(failures);
 }
 

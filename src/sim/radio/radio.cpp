@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "mavloom/msg/heartbeat.hpp"
+
 namespace mavloom::sim {
 
 void Radio::open(LinkId link) {
@@ -22,7 +24,8 @@ void Radio::close(LinkId link) {
 
 void Radio::transmit(LinkId link, const wire::MessageInfo& info, ByteView payload, ComponentId from) {
     Outlet* const outlet = find(link);
-    if (outlet == nullptr || silent_) return;
+    if (outlet == nullptr || silent_ || is_off_) return;
+    if (withholds_heartbeat_ && info.id == msg::Heartbeat::id && from == autopilot_component) return;
     auto& sequence = outlet->sequences[from.value];
     wire::Signing signing;
     if (outlet->signer) signing = {&*outlet->signer, std::max(wire::SigningTime::from(utc_), signing_start_)};
@@ -32,6 +35,10 @@ void Radio::transmit(LinkId link, const wire::MessageInfo& info, ByteView payloa
     outlet->totals.frames += 1;
     outlet->totals.bytes += frame.size();
     sink_.send(link, frame);
+}
+
+void Radio::restart_sequences() noexcept {
+    for (Outlet& outlet : outlets_) outlet.sequences.fill(0);
 }
 
 void Radio::note_received(LinkId link, std::size_t bytes) noexcept {

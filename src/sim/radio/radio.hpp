@@ -64,6 +64,12 @@ public:
     void set_utc(WallTime now) noexcept { utc_ = now; }
     // While silent, the radio sends nothing. A vehicle is silent while it reboots.
     void set_silent(bool silent) noexcept { silent_ = silent; }
+    // Faults on purpose: the radio is off, or the autopilot's HEARTBEAT is not sent.
+    void set_off(bool off) noexcept { is_off_ = off; }
+    [[nodiscard]] bool is_off() const noexcept { return is_off_; }
+    void withhold_heartbeat(bool withhold) noexcept { withholds_heartbeat_ = withhold; }
+    // All sequence numbers begin at 0 again.
+    void restart_sequences() noexcept;
 
 private:
     struct Outlet {
@@ -82,7 +88,7 @@ private:
     wire::SigningTime signing_start_;
     std::uint8_t next_signing_link_ = 0;
     WallTime utc_{};
-    bool silent_ = false;
+    bool silent_ = false, is_off_ = false, withholds_heartbeat_ = false;
 };
 
 }  // namespace mavloom::sim

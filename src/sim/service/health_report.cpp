@@ -84,12 +84,12 @@ private:
         if (share < tuning.battery_low) add(event_id::battery_low, all_modes, health_battery);
     }
 
-    void find_failures(const SensorFailures& failures) {
-        if (failures.gps_off) add_failure(event_id::gps_offline, health_gps);
-        if (failures.gyroscope_off) add_failure(event_id::gyro_missing, health_gyro);
-        if (failures.accelerometer_off) add_failure(event_id::accelerometer_missing, health_accelerometer);
-        if (failures.magnetometer_off) add_failure(event_id::magnetometer_missing, health_magnetometer);
-        if (failures.barometer_off) add_failure(event_id::barometer_missing, health_absolute_pressure);
+    void find_failures(const Failures& failures) {
+        if (failures.gps == Failure::off) add_failure(event_id::gps_offline, health_gps);
+        if (is_frozen(failures.gyroscope)) add_failure(event_id::gyro_missing, health_gyro);
+        if (is_frozen(failures.accelerometer)) add_failure(event_id::accelerometer_missing, health_accelerometer);
+        if (is_frozen(failures.magnetometer)) add_failure(event_id::magnetometer_missing, health_magnetometer);
+        if (is_frozen(failures.barometer)) add_failure(event_id::barometer_missing, health_absolute_pressure);
     }
 
     [[nodiscard]] bool has_offboard() const noexcept { return flight_.mode().behaviour == Behaviour::offboard; }

@@ -12,6 +12,7 @@
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/endpoint/grammar.hpp"
 #include "simserve/scenario/values.hpp"
+#include "simserve/scenario/vehicle_fault.hpp"
 
 namespace mavloom::simserve {
 
@@ -37,6 +38,7 @@ struct OrderForm {
     }
 };
 
+constexpr std::string_view fail_order = "fail";
 using Kind = Argument::Kind;
 constexpr std::array order_forms{
     OrderForm{"arm", {}, "arm"},
@@ -49,20 +51,15 @@ constexpr std::array order_forms{
     OrderForm{"param", {{{"name", Kind::text}, {"value"}}}, "param NAME VALUE"},
 };
 
-std::vector<std::string_view> words_of(std::string_view text) {
-    std::vector<std::string_view> words;
-    for (std::size_t at = 0; at < text.size();) {
-        const auto end = std::min(text.find(' ', at), text.size());
-        if (end != at) words.push_back(text.substr(at, end - at));
-        at = end + 1;
-    }
+std::vector<std::string_view> words_of_order(std::string_view text) {
+    auto words = words_of(text);
     if (words == std::vector<std::string_view>{"land"}) return {"mode", "Land"};
     if (words == std::vector<std::string_view>{"rtl"}) return {"mode", "RTL"};
     return words;
 }
 
 SetupResult<const OrderForm*> form_of(std::string_view name) {
-    std::vector<std::string_view> names{"land", "rtl"};
+    std::vector<std::string_view> names{"land", "rtl", fail_order};
     for (const auto& form : order_forms) names.push_back(form.name);
     const auto form = std::ranges::find(order_forms, name, &OrderForm::name);
     if (form != order_forms.end()) return &*form;
@@ -70,10 +67,19 @@ SetupResult<const OrderForm*> form_of(std::string_view name) {
                                        did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
+SetupResult<std::string> request_of_fault(std::string_view fault, std::optional<SystemId> system) {
+    if (const auto good = parse_vehicle_fault(fault); !good) return tl::unexpected(good.error());
+    nlohmann::ordered_json request{{"cmd", fail_order}, {"fault", fault}};
+    if (system) request["system"] = system->value;
+    return request.dump();
+}
+
 }  // namespace
 
 SetupResult<std::string> request_of_order(std::string_view text, std::optional<SystemId> system) {
-    const auto words = words_of(text);
+    const auto words = words_of_order(text);
+    if (!words.empty() && words.front() == fail_order)
+        return request_of_fault(fmt::format("{}", fmt::join(words.begin() + 1, words.end(), " ")), system);
     const auto form = form_of(words.empty() ? std::string_view() : words.front());
     if (!form) return tl::unexpected(form.error());
     const auto& its = **form;

@@ -131,4 +131,14 @@ SetupResult<sim::BatteryOptions> parse_battery(std::string_view text) {
     return battery;
 }
 
+std::vector<std::string_view> words_of(std::string_view text) {
+    std::vector<std::string_view> words;
+    for (std::size_t at = 0; at < text.size();) {
+        const auto end = std::min(text.find(' ', at), text.size());
+        if (end != at) words.push_back(text.substr(at, end - at));
+        at = end + 1;
+    }
+    return words;
+}
+
 }  // namespace mavloom::simserve

@@ -31,4 +31,7 @@ struct Range {
 // "NAME:VALUE,NAME:VALUE".
 [[nodiscard]] SetupResult<std::vector<std::pair<std::string, double>>> parse_pairs(std::string_view text);
 
+// The words between blanks.
+[[nodiscard]] std::vector<std::string_view> words_of(std::string_view text);
+
 }  // namespace mavloom::simserve

@@ -15,6 +15,7 @@ try:
     from mavsdk import ComponentType, Configuration, Mavsdk
     from mavsdk.plugins.action import action as actions
     from mavsdk.plugins.calibration import calibration as calibrations
+    from mavsdk.plugins.failure import failure as failures
     from mavsdk.plugins.ftp import ftp as ftps
     from mavsdk.plugins.geofence import geofence as geofences
     from mavsdk.plugins.gimbal import gimbal as gimbals
@@ -588,6 +589,21 @@ def offboard_loss(sdk):
     emit(start=result_of(plugin.start))
     wait_for(lambda: not plugin.is_active(), "the end of Offboard")
     emit(mode=sdk.telemetry.flight_mode())
+
+
+@step
+def motor_failure(sdk):
+    """A flight that ends when a motor stops."""
+    plugin, action = failures.Failure(sdk.system), actions.Action(sdk.system)
+    sdk.healthy()
+    take_off(sdk, action, 10.0)
+    where = sdk.telemetry.position
+    before = where().relative_altitude_m
+    unit, kind = failures.FailureUnit, failures.FailureType
+    answer = {"unsupported": result_of(plugin.inject, unit.SYSTEM_SERVO, kind.OFF, 0),
+              "stop": result_of(plugin.inject, unit.SYSTEM_MOTOR, kind.OFF, 1)}
+    wait_for(lambda: where().relative_altitude_m < 1, "the ground")
+    emit(fell_m=before - where().relative_altitude_m, **answer)
 
 
 @step

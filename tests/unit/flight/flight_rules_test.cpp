@@ -692,7 +692,7 @@ TEST(Failsafe, LostSticksLeadToHold) {
 TEST(Failsafe, WithoutAPositionTheVehicleComesDown) {
     FlightRig rig(ready);
     rig.take_off(10);
-    ASSERT_TRUE(rig.flight.inject_failures({.gps_off = true}).is_accepted());
+    ASSERT_TRUE(rig.flight.inject_failures({.gps = Failure::off}).is_accepted());
     rig.run(1);
     EXPECT_EQ(rig.mode(), "Descend");
     EXPECT_EQ(rig.set_mode("Hold").result, Result::temporarily_rejected);

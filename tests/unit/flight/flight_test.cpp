@@ -101,13 +101,73 @@ TEST(Arming, DisarmingInTheAirNeedsForce) {
 
 TEST(Arming, AFailedSensorPreventsIt) {
     FlightRig rig(ready);
-    ASSERT_TRUE(rig.flight.inject_failures({.magnetometer_off = true}).is_accepted());
+    ASSERT_TRUE(rig.flight.inject_failures({.magnetometer = Failure::off}).is_accepted());
     EXPECT_EQ(rig.flight.unready(), std::uint32_t{unready_sensors});
     EXPECT_EQ(rig.arm().result, Result::temporarily_rejected);
     EXPECT_EQ(rig.flight.system_status(), SystemStatus::uninitialised);
     EXPECT_TRUE(rig.flight.arm(true, OrderedBy::client).is_accepted());
     rig.set("SYS_FAILURE_EN", 0);
     EXPECT_EQ(rig.flight.inject_failures({}).result, Result::denied);
+}
+
+// Of three motors, two on one side make it tumble.
+TEST(Faults, WithAMotorLessAQuadFalls) {
+    FlightRig rig(ready);
+    rig.take_off(20);
+    const Fault first_off{.part = FaultPart::motor, .kind = FaultKind::off, .numbers = {1}, .count = 1};
+    ASSERT_TRUE(rig.flight.set_fault(first_off).is_accepted());
+    rig.run(0.1);
+    EXPECT_EQ(rig.flight.outputs()[0], 0);
+    EXPECT_GT(rig.flight.outputs()[1], 0);
+    ASSERT_TRUE(rig.run_until([&] { return rig.height() < 1; }, 10));
+    rig.run(20, [&] { ASSERT_TRUE(rig.place().allFinite()); });
+    EXPECT_LT(rig.height(), 1);
+}
+
+TEST(Faults, OfMotorsThatTheVehicleLacksAreRefused) {
+    FlightRig rig(ready);
+    const auto outcome = rig.flight.set_fault({FaultPart::motor, FaultKind::off, {5}, 1});
+    EXPECT_EQ(outcome.text, "the vehicle has 4 motors");
+    EXPECT_FALSE(outcome.is_accepted());
+    const VehicleOptions rover{.kind = Kind::rover, .ready_after = Nanoseconds{0}};
+    FlightRig other(rover);
+    EXPECT_FALSE(other.flight.set_fault({FaultPart::motor, FaultKind::off}).is_accepted());
+}
+
+// The vehicle holds what it takes for its place, so it really moves the other way. It lags about a metre behind.
+TEST(Faults, ADriftOfTheGpsCarriesTheVehicleAway) {
+    FlightRig rig(ready);
+    rig.take_off(10);
+    ASSERT_TRUE(rig.set_mode("Hold").is_accepted());
+    rig.run(5);
+    const Vector3 truth = rig.flight.truth().position, place = rig.place();
+    ASSERT_TRUE(rig.flight.set_fault({FaultPart::gps, FaultKind::drift, {0, 1}, 2}).is_accepted());
+    rig.run(20);
+    EXPECT_NEAR(rig.place().y(), place.y(), 1.5);
+    EXPECT_NEAR(rig.flight.truth().position.y(), truth.y() - 19.5, 1.5);
+    EXPECT_EQ(rig.mode(), "Hold");
+}
+
+TEST(Faults, StayOverARebootAndInjectedFailuresDoNot) {
+    FlightRig rig(ready);
+    ASSERT_TRUE(rig.flight.set_fault({FaultPart::compass, FaultKind::off}).is_accepted());
+    ASSERT_TRUE(rig.flight.inject_failures({.barometer = Failure::off}).is_accepted());
+    rig.flight.reboot();
+    EXPECT_EQ(rig.flight.sensors().failures().magnetometer, Failure::off);
+    EXPECT_EQ(rig.flight.sensors().failures().barometer, Failure::none);
+    ASSERT_TRUE(rig.flight.set_fault({FaultPart::all, FaultKind::ok}).is_accepted());
+    EXPECT_EQ(rig.flight.sensors().failures().magnetometer, Failure::none);
+}
+
+TEST(Faults, ABatteryThatReportsNothingCarriesTheVehicle) {
+    FlightRig rig(ready);
+    rig.set("COM_LOW_BAT_ACT", 0);  // only a warning
+    rig.take_off(10);
+    ASSERT_TRUE(rig.flight.set_fault({FaultPart::battery, FaultKind::off}).is_accepted());
+    rig.run(5);
+    EXPECT_EQ(rig.flight.battery().remaining(), 0);
+    EXPECT_NEAR(rig.height(), 10, 0.5);
+    EXPECT_GT(rig.flight.battery().voltage(), 14);
 }
 
 TEST(Arming, ATerminatedVehicleStaysSo) {

@@ -156,7 +156,7 @@ TEST_F(SensorsTest, FailuresRemoveTheSensor) {
     sensors.acquire_gps(true);
     run(1);
     const Vector3 magnetic = sensors.imu().magnetic;
-    sensors.set_failures({.gps_off = true, .magnetometer_off = true});
+    sensors.set_failures({.magnetometer = Failure::off, .gps = Failure::off});
     run(1);
     EXPECT_EQ(sensors.gps().fix_type, 0);
     EXPECT_EQ(sensors.gps().satellites, 0);
@@ -167,6 +167,82 @@ TEST_F(SensorsTest, FailuresRemoveTheSensor) {
     run(1);
     EXPECT_EQ(sensors.gps().fix_type, 3);
     EXPECT_NE(sensors.imu().magnetic, magnetic);
+}
+
+TEST_F(SensorsTest, AWrongReceiverKeepsItsPositionAndLosesItsFix) {
+    sensors.acquire_gps(true);
+    truth.position = {30, 0, 0};
+    sensors.set_failures({.gps = Failure::wrong, .wrong_fix = 2});
+    run(1);
+    EXPECT_EQ(sensors.gps().fix_type, 2);
+    EXPECT_NEAR(sensors.gps().position.x(), 30, 0.2);
+    EXPECT_FALSE(sensors.has_position());
+    sensors.set_failures({.gps = Failure::wrong, .wrong_fix = 6});
+    run(1);
+    EXPECT_EQ(sensors.gps().fix_type, 6);
+    EXPECT_TRUE(sensors.has_position());
+}
+
+// 0.5 * 1.2 kg/m^3 * (20 m/s)^2 = 240 Pa. A blocked pitot tube passes 30 %.
+TEST_F(SensorsTest, ABlockedPitotTubePassesLessWithinASecond) {
+    Sensors exact(false, 7, field);
+    air = {20, 0, 0};
+    const auto fly = [&](double seconds) {
+        for (long i = std::lround(seconds / step_s); i > 0; --i) exact.step(truth, air, false, zurich, 1.2);
+        return exact.imu().differential_hpa;
+    };
+    EXPECT_NEAR(fly(1), 2.40, 1e-6);
+    exact.set_failures({.airspeed = Failure::wrong});
+    EXPECT_NEAR(fly(0.5), 2.40 * 0.65, 0.1);
+    EXPECT_NEAR(fly(1), 0.72, 1e-6);
+    exact.set_failures({.airspeed = Failure::stuck});
+    air = {10, 0, 0};
+    EXPECT_NEAR(fly(1), 0.72, 1e-6);
+    exact.set_failures({});
+    EXPECT_NEAR(fly(1), 0.60, 1e-6);
+}
+
+TEST_F(SensorsTest, TheEstimateFollowsADriftAtOnceAndAJumpLater) {
+    sensors.acquire_gps(true);
+    run(1);
+    sensors.set_deceptions({.gps_drift = {0, 2, 0}});
+    run(10);
+    EXPECT_NEAR(sensors.gps().position.y(), 20, 1);
+    EXPECT_NEAR(sensors.gps().velocity.y(), 2, 0.2);
+    EXPECT_NEAR(sensors.estimate().position.y(), 19, 0.3) << "half a second behind";
+    EXPECT_NEAR(sensors.estimate().velocity.y(), 2, 0.1);
+    sensors.set_deceptions({});
+    run(6);
+    EXPECT_NEAR(sensors.gps().position.y(), 0, 0.2);
+    EXPECT_NEAR(sensors.estimate().position.y(), 19, 0.3) << "the jump is rejected";
+    run(2);
+    EXPECT_NEAR(sensors.estimate().position.y(), 0, 0.2);
+
+    sensors.set_deceptions({.gps_jump = {100, 0, 0}});
+    run(6.5);
+    EXPECT_NEAR(sensors.gps().position.x(), 100, 0.2);
+    EXPECT_NEAR(sensors.estimate().position.x(), 0, 0.2);
+    run(1);
+    EXPECT_NEAR(sensors.estimate().position.x(), 100, 0.2);
+}
+
+// A pressure of 10 m more: 1.17 hPa less at this height, by the standard atmosphere. PX4 counts heights downwards.
+TEST_F(SensorsTest, ABarometerThatReadsTooHighLiftsTheEstimate) {
+    run(1);
+    const double before = sensors.imu().pressure_hpa;
+    sensors.set_deceptions({.barometer_offset = 3});
+    run(4);
+    EXPECT_NEAR(before - sensors.imu().pressure_hpa, 0.34, 0.05);
+    EXPECT_NEAR(sensors.estimate().position.z(), -3, 0.2);
+}
+
+TEST_F(SensorsTest, ATurnedCompassShowsAnotherHeading) {
+    Sensors exact(false, 7, {0.2, 0, 0.4});
+    exact.set_deceptions({.compass_turn = to_radians(30)});
+    exact.step(truth, air, false, zurich, 1.2);
+    const Vector3& measured = exact.imu().magnetic;
+    EXPECT_NEAR(to_degrees(std::atan2(-measured.y(), measured.x())), 30, 1e-6) << "the heading by a level compass";
+    EXPECT_NEAR(measured.norm(), std::hypot(0.2, 0.4), 1e-9);
 }
 
 TEST_F(SensorsTest, TheSameSeedGivesTheSameNoise) {

@@ -512,8 +512,8 @@ TEST(MaintenanceCommands, InjectFailuresOfSensors) {
     EXPECT_EQ(bench.command(420, {4, 0, 0}), accepted);
     bench.rig.run(3.0);
     EXPECT_EQ(bench.command(420, {4, 2, 0}), accepted) << "GPS stuck";
-    EXPECT_EQ(bench.command(420, {2, 2, 0}), unsupported) << "no magnetometer gets stuck";
-    EXPECT_EQ(bench.command(420, {101, 1, 0}), unsupported) << "no motor fails";
+    EXPECT_EQ(bench.command(420, {2, 4, 0}), unsupported) << "no magnetometer is wrong";
+    EXPECT_EQ(bench.command(420, {102, 1, 0}), unsupported) << "no servo fails";
     EXPECT_EQ(bench.command(420, {nan_f, 1, 0}), denied);
     EXPECT_EQ(bench.command(420, {100, 1, 0}), accepted) << "battery";
     EXPECT_LT(bench.state().battery_percent, 5);

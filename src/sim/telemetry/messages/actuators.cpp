@@ -79,6 +79,18 @@ std::array<double, 4> controls_of(Kind kind, const Outputs& o) noexcept {
     return {};
 }
 
+// An ESC that fails sends nothing, or, as with PX4, a tenth of voltage and current and ten times the speed.
+void fail_escs(const Failures& failures, std::size_t count, msg::EscStatus& message) noexcept {
+    for (std::size_t i = 0; i < count; ++i) {
+        if ((failures.wrong_escs >> i & 1) != 0) {
+            message.rpm[i] *= 10;
+            message.voltage[i] /= 10;
+            message.current[i] /= 10;
+        }
+        if ((failures.silent_escs >> i & 1) != 0) message.rpm[i] = 0, message.voltage[i] = message.current[i] = 0;
+    }
+}
+
 // Pulse widths in us of a stick from -1 to 1.
 std::uint16_t stick(double value) noexcept {
     return saturated<std::uint16_t>(1500 + 500 * std::clamp(value, -1.0, 1.0));
@@ -110,9 +122,10 @@ bool write_esc_info(const View& view, ByteSpan payload) {
     constexpr std::int16_t temperature = 5000;  // 50 degC, the constant of PX4's simulator
     const std::uint8_t count = motors_of(view).count;
     if (count == 0) return false;
-    msg::EscInfo message{
-        .time_usec = boot_us(view), .count = count, .info = static_cast<std::uint8_t>((1u << count) - 1)};
-    std::fill_n(message.temperature.begin(), count, temperature);
+    const unsigned heard = ((1u << count) - 1) & ~unsigned{view.flight.sensors().failures().silent_escs};
+    msg::EscInfo message{.time_usec = boot_us(view), .count = count, .info = static_cast<std::uint8_t>(heard)};
+    for (std::size_t i = 0; i < count; ++i)
+        if ((heard >> i & 1) != 0) message.temperature[i] = temperature;
     return put(message, payload);
 }
 
@@ -128,6 +141,7 @@ bool write_esc_status(const View& view, ByteSpan payload) {
         message.voltage[i] = as_float(view.flight.battery().voltage());
         message.current[i] = as_float(view.flight.battery().current() / motors.count);
     }
+    fail_escs(view.flight.sensors().failures(), motors.count, message);
     return put(message, payload);
 }
 

@@ -77,9 +77,10 @@ bool write_estimator_sensor_fusion_status(const View& view, ByteSpan payload) {
     };
     fuse(ESTIMATOR_SENSOR_FUSION_SOURCE_GPS, sensors.has_position());
     fuse(ESTIMATOR_SENSOR_FUSION_SOURCE_OF, false);
-    fuse(ESTIMATOR_SENSOR_FUSION_SOURCE_BARO, !sensors.failures().barometer_off);
-    fuse(ESTIMATOR_SENSOR_FUSION_SOURCE_RNG, height_of(view) < range_height);
-    fuse(ESTIMATOR_SENSOR_FUSION_SOURCE_MAG, !sensors.failures().magnetometer_off);
+    fuse(ESTIMATOR_SENSOR_FUSION_SOURCE_BARO, !is_frozen(sensors.failures().barometer));
+    fuse(ESTIMATOR_SENSOR_FUSION_SOURCE_RNG,
+         sensors.failures().rangefinder == Failure::none && height_of(view) < range_height);
+    fuse(ESTIMATOR_SENSOR_FUSION_SOURCE_MAG, !is_frozen(sensors.failures().magnetometer));
     message.test_ratio.fill(float_nan);
     return put(message, payload);
 }

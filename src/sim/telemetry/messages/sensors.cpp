@@ -50,7 +50,8 @@ bool write_scaled(const View& view, ByteSpan payload) {
 bool write_highres_imu(const View& view, ByteSpan payload) {
     const ImuSample& imu = view.flight.sensors().imu();
     const bool has_airspeed = view.options.kind == Kind::plane;
-    const unsigned absent = has_airspeed ? 0 : unsigned{msg::HIGHRES_IMU_UPDATED_DIFF_PRESSURE};
+    const bool is_off = view.flight.sensors().failures().airspeed == Failure::off;
+    const unsigned absent = has_airspeed && !is_off ? 0 : unsigned{msg::HIGHRES_IMU_UPDATED_DIFF_PRESSURE};
     return put(msg::HighresImu{.time_usec = boot_us(view),
                                .xacc = as_float(imu.acceleration.x()),
                                .yacc = as_float(imu.acceleration.y()),
@@ -92,7 +93,9 @@ bool write_scaled_pressure(const View& view, ByteSpan payload) {
 // and unknown (0) in between.
 bool write_distance_sensor(const View& view, ByteSpan payload) {
     constexpr double range = 100, lowest = 0.05;
-    const double height = height_of(view);
+    const Failure failure = view.flight.sensors().failures().rangefinder;
+    if (failure == Failure::off) return false;
+    const double height = failure == Failure::stuck ? view.flight.last_range() : height_of(view);
     const bool is_valid = height > lowest && height <= range;
     return put(msg::DistanceSensor{.time_boot_ms = boot_ms(view),
                                    .max_distance = 100 * static_cast<std::uint16_t>(range),

@@ -47,14 +47,15 @@ constexpr SensorBits ardupilot_bits{ardupilot_sensors, ardupilot_sensors, ardupi
 
 std::uint32_t failed_bits(const View& view) noexcept {
     const Sensors& sensors = view.flight.sensors();
-    const SensorFailures& failures = sensors.failures();
+    const Failures& failures = sensors.failures();
     std::uint32_t failed = 0;
     const auto fails = [&](bool is_failed, std::uint32_t bits) { failed |= is_failed ? bits : 0; };
     fails(!sensors.has_position(), gnss_bit);
-    fails(failures.gyroscope_off, MAV_SYS_STATUS_SENSOR_3D_GYRO);
-    fails(failures.accelerometer_off, MAV_SYS_STATUS_SENSOR_3D_ACCEL);
-    fails(failures.magnetometer_off, MAV_SYS_STATUS_SENSOR_3D_MAG);
-    fails(failures.barometer_off, MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE);
+    fails(is_frozen(failures.gyroscope), MAV_SYS_STATUS_SENSOR_3D_GYRO);
+    fails(is_frozen(failures.accelerometer), MAV_SYS_STATUS_SENSOR_3D_ACCEL);
+    fails(is_frozen(failures.magnetometer), MAV_SYS_STATUS_SENSOR_3D_MAG);
+    fails(is_frozen(failures.barometer), MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE);
+    fails(is_frozen(failures.airspeed), MAV_SYS_STATUS_SENSOR_DIFFERENTIAL_PRESSURE);
     // ArduPilot's checks do not depend on the mode.
     const std::uint32_t ignored = view.firmware.is_px4() ? 0 : std::uint32_t{unready_mode};
     fails((view.flight.unready() & ~ignored) != 0, MAV_SYS_STATUS_PREARM_CHECK);
@@ -71,16 +72,17 @@ SensorBits sensor_bits(const View& view) noexcept {
 }
 
 std::uint16_t high_latency_failures(const View& view) noexcept {
-    const SensorFailures& failures = view.flight.sensors().failures();
+    const Failures& failures = view.flight.sensors().failures();
     std::uint16_t flags = 0;
     const auto fails = [&](bool is_failed, std::uint16_t bit) {
         flags = static_cast<std::uint16_t>(flags | (is_failed ? bit : 0));
     };
     fails(!view.flight.sensors().has_position(), HL_FAILURE_FLAG_GPS);
-    fails(failures.barometer_off, HL_FAILURE_FLAG_ABSOLUTE_PRESSURE);
-    fails(failures.accelerometer_off, HL_FAILURE_FLAG_3D_ACCEL);
-    fails(failures.gyroscope_off, HL_FAILURE_FLAG_3D_GYRO);
-    fails(failures.magnetometer_off, HL_FAILURE_FLAG_3D_MAG);
+    fails(is_frozen(failures.airspeed), HL_FAILURE_FLAG_DIFFERENTIAL_PRESSURE);
+    fails(is_frozen(failures.barometer), HL_FAILURE_FLAG_ABSOLUTE_PRESSURE);
+    fails(is_frozen(failures.accelerometer), HL_FAILURE_FLAG_3D_ACCEL);
+    fails(is_frozen(failures.gyroscope), HL_FAILURE_FLAG_3D_GYRO);
+    fails(is_frozen(failures.magnetometer), HL_FAILURE_FLAG_3D_MAG);
     fails(view.flight.battery().remaining() < view.flight.tuning().battery_critical, HL_FAILURE_FLAG_BATTERY);
     return flags;
 }

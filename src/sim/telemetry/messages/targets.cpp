@@ -30,7 +30,7 @@ Trajectory at_rest(const Flight& flight) noexcept {
 // Inner loops that move a point along the path report it; otherwise the goal itself is the target.
 Trajectory trajectory_of(const Flight& flight) noexcept {
     const Setpoint& setpoint = flight.setpoint();
-    const InnerTargets& inner = flight.inner_targets();
+    const InnerTargets inner = flight.inner_targets();
     if (!flight.armed() || setpoint.steering == Steering::none) return at_rest(flight);
     const auto first = [](double a, double b, double c) { return !std::isnan(a) ? a : !std::isnan(b) ? b : c; };
     Trajectory trajectory{.position = inner.position,
@@ -101,7 +101,7 @@ bool has_nav_controller(const View& view) noexcept {
 // Disarmed, the controllers aim at level flight with the present heading.
 bool write_attitude_target(const View& view, ByteSpan payload) {
     const Flight& flight = view.flight;
-    const InnerTargets& inner = flight.inner_targets();
+    const InnerTargets inner = flight.inner_targets();
     const double half_yaw = flight.estimate().euler.yaw / 2;
     const Quaternion level(std::cos(half_yaw), 0, 0, std::sin(half_yaw));
     const Vector3 rates = flight.armed() ? inner.rates : Vector3::Zero();
@@ -145,7 +145,7 @@ bool write_position_target_global_int(const View& view, ByteSpan payload) {
 bool write_nav_controller_output(const View& view, ByteSpan payload) {
     const auto target = navigation_target(view);
     if (!target || !has_nav_controller(view)) return false;
-    const InnerTargets& inner = view.flight.inner_targets();
+    const InnerTargets inner = view.flight.inner_targets();
     const Euler attitude = to_euler(inner.attitude);
     const Vector3 way = target->position - view.flight.estimate().position;
     const double bearing = std::atan2(way.y(), way.x());

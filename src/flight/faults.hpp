@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// The faults that the operator of a simulator has set. Private to flight and sim; single owner. They stay over a
+// reboot, as broken hardware does.
+#pragma once
+
+#include <vector>
+
+#include "flight/physics/failures.hpp"
+#include "mavloom/flight/fault.hpp"
+
+namespace mavloom::flight {
+
+class Faults {
+public:
+    // Only for a fault that lasts. A part has one at a time; each motor and each ESC has its own. "ok" ends those of
+    // its part, or of its motor.
+    void set(const Fault& fault);
+
+    [[nodiscard]] Failures failures() const noexcept;
+    [[nodiscard]] Deceptions deceptions() const noexcept;
+    // True if the part has a fault that is neither a failure nor a deception: a heartbeat or radio that is off.
+    [[nodiscard]] bool has(FaultPart part) const noexcept;
+
+private:
+    std::vector<Fault> faults_;
+};
+
+}  // namespace mavloom::flight
