@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Runs the benchmarks behind docs/performance.md, one after another: ./run bench
-[parse|decode|python|listen|inside|shm|sim|pipeline|route|websocket|hostile|web|page ...]. Most of them compare
+[parse|decode|python|listen|inside|shm|sim|pipeline|route|websocket|hostile|web|page|top ...]. Most of them compare
 Mavloom with another program. If one benchmark is named, options that this script does not know are passed to it:
 ./run bench route --quick"""
 import argparse
@@ -30,6 +30,7 @@ def commands(program, build):
         "websocket": [[sys.executable, HERE / "websocket.py", "--program", program, "--tools", folder]],
         "web": [[sys.executable, HERE / "web.py", "--program", program]],
         "page": [[sys.executable, HERE / "page.py", "--program", program]],
+        "top": [[sys.executable, HERE / "top.py", "--program", program, "--load", folder / "load_bench"]],
         "hostile": [[sys.executable, HERE / "hostile.py", "--program", program, "--tools", folder]],
     }
 

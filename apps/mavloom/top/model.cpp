@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "top/model.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace mavloom::app {
@@ -77,6 +78,11 @@ void Model::tick(view::Now now) {
     inspector_->set_hops(std::move(hops), now.wall, now.mono);
     inspector_->note_losses(own.on_links, now.wall, now.mono);
     inspector_->tick(now.wall, now.mono);
+}
+
+bool Model::has_rows() const {
+    const std::lock_guard lock(mutex_);
+    return std::ranges::any_of(inspector_->latest().rows(), [](const auto& row) { return row.born != 0; });
 }
 
 view::Snapshot Model::snapshot(view::Now now, view::Rates rates) {

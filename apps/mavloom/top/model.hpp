@@ -42,6 +42,7 @@ public:
     void want_routes(bool wants) noexcept { wants_routes_ = wants; }
     // Keeps the numbers of this message, and puts those of `number` into each snapshot.
     void watch(const std::optional<view::RowKey>& key, const std::optional<view::Number>& number);
+    [[nodiscard]] bool has_rows() const;
     [[nodiscard]] view::Snapshot snapshot(view::Now now, view::Rates rates);
 
 private:

@@ -133,13 +133,12 @@ public:
             const auto begin = mono_now();
             draw();
             const auto took = mono_now() - begin;
-            const bool is_empty = latest_->rows.empty();
-            take_keys(std::max<Nanoseconds>(is_empty ? first_period : period, 10 * took));
+            take_keys(std::max<Nanoseconds>(period, 10 * took));
         }
     }
 
 private:
-    static constexpr auto period = 100ms, first_period = 20ms, answer_is_shown = 10'000ms;
+    static constexpr auto period = 100ms, first_look = 5ms, answer_is_shown = 10'000ms;
 
     [[nodiscard]] const std::shared_ptr<const view::Snapshot>& shown() const {
         return state_.paused ? state_.paused : latest_;
@@ -157,18 +156,20 @@ private:
     }
     void show() { screen_.show(view::draw(*shown(), state_, screen_.size(), glyphs_)); }
 
-    // A key is shown at once.
+    // A key is shown at once, and so is the first message.
     void take_keys(Nanoseconds time) {
         const auto end = mono_now() + time;
+        const bool is_empty = latest_->rows.empty();
         for (auto now = mono_now(); going_ && now < end && !Signals::received(); now = mono_now()) {
             const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - now);
-            if (!Screen::wait(left)) going_ = false;
+            if (!Screen::wait(is_empty ? std::min(left, first_look) : left)) going_ = false;
             bool was_pressed = false;
             while (const auto key = screen_.key()) {
                 was_pressed = true;
                 press(*key);
             }
             if (was_pressed && going_) return draw();
+            if (is_empty && model_.has_rows()) return;
             if (screen_.size() != size_) show();
             size_ = screen_.size();
         }
