@@ -117,6 +117,20 @@ def test_a_broken_hop_is_named(spawn, broken):
     assert hops["vehicle"]["frames_out"] - hops["ground station"]["frames_in"] == hops[broken]["lost"]
 
 
+def test_two_hops_that_stop_do_not_lose_the_same_frames(spawn):
+    demo = spawn("demo", "--ports", "free", "--json", "--break", "relay")
+    demo.wait_output("the relay is stopped")
+    harness.wait_for(lambda: hops_at(demo)["relay"]["losses"], what="the loss of the relay")
+    listener = next(child for child in children_of(demo.pid) if "mavloom.hear" in words_of(child))
+    os.kill(listener, signal.SIGKILL)
+    harness.wait_for(lambda: hops_at(demo)["listener"]["losses"], what="the loss of the listener")
+    hops = {hop["name"]: hop for hop in json.loads(demo.stop(signal.SIGINT).stdout)["hops"]}
+
+    written, arrived = hops["listener"]["frames_out"], hops["ground station"]["frames_in"]
+    assert hops["relay"]["lost"] == written - arrived > 0
+    assert hops["listener"]["lost"] == hops["router"]["frames_out"] - written > 0
+
+
 def test_a_ground_station_connects_and_flies_and_ctrl_c_leaves_nothing(spawn):
     demo = spawn("demo", "--ports", "free")
     port = demo.wait_output(r"UDP port (\d+)")[1]

@@ -160,11 +160,12 @@ void Tallies::look_at_relay() {
         set_loss(at(Stage::relay), loss, number_at(stats.value("totals", Json()), loss.name));
 }
 
-// The frames that each hop sent on. Of one that is stopped, those are the frames that the next one heard.
+// The frames that each hop sent on. The last counts of one that is stopped may be older than what the next one heard.
 Tallies::Sent Tallies::sent() const {
     Sent all{};
     all.back() = tallies_.back().in;
-    for (std::size_t i = hop_count - 1; i-- > 0;) all[i] = tallies_[i].is_up ? tallies_[i].out : tallies_[i + 1].in;
+    for (std::size_t i = 0; i + 1 < hop_count; ++i)
+        all[i] = tallies_[i].is_up ? tallies_[i].out : std::max(tallies_[i].out, tallies_[i + 1].in);
     return all;
 }
 
