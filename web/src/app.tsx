@@ -3,12 +3,12 @@ import { computed, effect, signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { alarmFeed, alarms } from "./model/observed";
 import { seconds } from "./model/feeds";
-import { columns, isHelpOpen, notice, opened, plots, query, sort, span, view } from "./model/state";
+import { announce, current, isHelpOpen, notice, view } from "./model/state";
 import { encodeState, type View } from "./model/url";
 import { duration } from "./ui/format";
 import { Icon } from "./ui/icon";
 import { nextTheme, theme } from "./ui/theme";
-import { connect, isLive, lostAt, retryAt, serverName } from "./wire/connection";
+import { connect, isLive, lostAt, retryAt, serverName, slowness } from "./wire/connection";
 import { Help } from "./views/help";
 import { Messages } from "./views/messages";
 import { Overview } from "./views/overview";
@@ -16,22 +16,14 @@ import { Plots, takeDrop } from "./views/plots";
 
 const TITLES: Record<View, string> = { overview: "Overview", messages: "Messages", plots: "Plots" };
 
-function hrefOf(to: View): string {
-    const state = {
-        view: to,
-        query: query.value,
-        sort: sort.value,
-        columns: columns.value,
-        opened: opened.value,
-        plots: plots.value,
-        span: span.value,
-    };
-    return `#${encodeState(state)}`;
-}
+const hrefOf = (to: View): string => `#${encodeState({ ...current(), view: to })}`;
 
 const hasConnected = signal(false);
 effect(() => {
     if (isLive.value) hasConnected.value = true;
+});
+effect(() => {
+    if (slowness.value !== "") announce(slowness.value);
 });
 const state = computed(() => (isLive.value ? "live" : hasConnected.value ? "lost" : "connecting"));
 const openAlarms = computed(() => alarms.value.filter((alarm) => alarm.ended_us === null && alarm.severity !== "info"));

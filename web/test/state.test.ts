@@ -43,7 +43,7 @@ test("an address with wrong parts loses only these", () => {
 
 test("numbers are short and never -0.0", () => {
     assert.deepEqual([fixed(-0.01, 1), fixed(null, 1), fixed(NaN, 1)], ["0.0", "–", "–"]);
-    assert.deepEqual([hertz(0), hertz(0.01), hertz(50)], ["0.0", "<0.1", "50.0"]);
+    assert.deepEqual([hertz(0), hertz(0.01), hertz(50), hertz(2690)], ["0.0", "<0.1", "50.0", "2,690.0"]);
     assert.deepEqual([bytes(999), bytes(1500), bytes(2e9)], ["999 B", "1.5 kB", "2.0 GB"]);
     assert.deepEqual(
         [duration(0.2), duration(119), duration(7199), duration(90_000)],

@@ -3,6 +3,7 @@
 import functools
 import gzip
 import http.server
+import json
 import pathlib
 import re
 import signal
@@ -13,6 +14,7 @@ import urllib.request
 import frames
 import harness
 import pytest
+import routers
 from browser import HTML, Server, chromium
 from frames import mavlink
 
@@ -191,6 +193,35 @@ def test_the_menu_of_columns_closes(page, server):
     assert menu.get_attribute("open") is not None
     page.locator("tbody").click()
     page.locator("details.chooser:not([open])").wait_for(state="attached")
+
+
+def test_rows_of_two_links_show_them_and_add_up(page):
+    with Server() as alone, routers.UdpEnd(("127.0.0.1", alone.source)) as second:
+        alone.send_vehicle()
+        page.goto(alone.url("#messages?open=/1/1/ATTITUDE"))
+        row(page, "/1/1/ATTITUDE").wait_for()
+        assert page.get_by_role("columnheader", name="Link").count() == 0
+        second.send(routers.make(mavlink.MAVLink_attitude_message(5000, 0, 0, 0, 0, 0, 0)))
+        page.get_by_role("columnheader", name="Link").wait_for()
+        links = page.locator("tr.open .c-link").all_inner_texts()
+        for _ in range(20):
+            second.send(routers.make(mavlink.MAVLink_attitude_message(5000, 0, 0, 0, 0, 0, 0)))
+        page.locator("aside .about", has_text=re.compile(r"[1-9]\d*\.\d /s")).wait_for()
+    assert len(set(links)) == 2, links
+
+
+def test_a_page_that_reads_too_slowly_states_it(page, server):
+    told = "this connection is too slow: 7 messages were not sent so far, the oldest first"
+    routes = []
+
+    def take(route):
+        route.connect_to_server()
+        routes.append(route)
+    page.route_web_socket(re.compile(r"^ws://"), take)
+    page.goto(server.url("#overview"))
+    page.locator(".badge.live").wait_for()
+    routes[0].send(json.dumps({"op": "status", "level": 1, "id": "drops", "message": told}))
+    page.get_by_role("status").get_by_text(told).wait_for()
 
 
 def test_text_from_outside_stays_text(page, server):

@@ -130,7 +130,7 @@ export const isVehicle = (one: Vehicle): boolean =>
 // ---- hops
 
 const HISTORY = 120; // one each half second
-export interface History {
+interface History {
     rates: number[];
     lost: { at: number; total: number }[];
 }

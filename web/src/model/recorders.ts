@@ -14,7 +14,7 @@ export const recordersVersion = signal(0);
 
 const schemaOf = (topic: string): Schema | null => channels.get(topic)?.schema ?? null;
 
-export class Recorder {
+class Recorder {
     readonly points = new Points();
     fault: FormulaError | null = null;
     unit = "";

@@ -6,7 +6,7 @@ import { isInvalid } from "../wire/invalid";
 import type { Schema } from "../wire/schema";
 import { FormulaError, parseFormula, type Parsed, type Use } from "./formula";
 
-export const MAX_POINTS = 20_000;
+const MAX_POINTS = 20_000;
 
 // Where the first time at or after `time` is, of those in [low, high).
 export function lowerBound(times: Float64Array, time: number, low: number, high: number): number {

@@ -33,7 +33,7 @@ export function announce(text: string): void {
     }, 4000);
 }
 
-function current(): State {
+export function current(): State {
     return {
         view: view.value,
         query: query.value,

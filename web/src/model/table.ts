@@ -6,7 +6,7 @@ import { serverNow } from "./feeds";
 import { openedMessage, type Opened } from "./latest";
 import type { Sort } from "./url";
 
-export interface Frozen {
+interface Frozen {
     at: number;
     opened: Opened | null;
     rows: Map<string, Row>;
@@ -31,7 +31,7 @@ export function compare(): void {
 
 export const shownRows = (): Map<string, Row> => (frozen.value && !isComparing.value ? frozen.value.rows : rows);
 
-export type Mark = "new" | "silent" | "";
+type Mark = "new" | "silent" | "";
 
 // New: not in the frozen state; without one, first seen a short while ago.
 export function markOf(row: Row): Mark {
@@ -48,7 +48,7 @@ export const shownRate = (row: Row): number => rateOf(row, shownAge(row));
 
 // ---- search: each word must occur. "1/1" is a whole source, not a part of 11/1.
 
-export function matcher(query: string): (row: Row) => boolean {
+function matcher(query: string): (row: Row) => boolean {
     const wanted = query
         .toLowerCase()
         .split(/\s+/)

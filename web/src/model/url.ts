@@ -2,7 +2,7 @@
 // The whole state of the page as text, for the part of the address after '#'. Usual values are left out.
 
 export type View = "overview" | "messages" | "plots";
-export const VIEWS: View[] = ["overview", "messages", "plots"];
+const VIEWS: View[] = ["overview", "messages", "plots"];
 
 export interface Sort {
     column: string;

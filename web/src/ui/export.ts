@@ -2,7 +2,7 @@
 // Plots as files: what they show, as CSV and as PNG.
 import type { SeriesState } from "../model/url";
 import { pointsOf, shownRange } from "../model/window";
-import { colour } from "./theme";
+import { colour, SERIES_COLOURS } from "./theme";
 
 function save(name: string, data: Blob): void {
     const link = document.createElement("a");
@@ -23,7 +23,7 @@ function label({ topic, formula, scale, offset }: SeriesState): string {
 }
 
 // A line for each time at which a series has a point. Cells of the others are empty.
-export function csvOf(plot: SeriesState[]): string {
+function csvOf(plot: SeriesState[]): string {
     const lines = new Map<number, string[]>();
     const range = shownRange();
     plot.forEach((series, column) => {
@@ -60,7 +60,7 @@ export function savePng(chart: HTMLCanvasElement, plot: SeriesState[]): void {
     context.textBaseline = "middle";
     let x = 12 * ratio;
     plot.forEach((series, i) => {
-        context.fillStyle = colour(`series-${i % 8}`);
+        context.fillStyle = colour(`series-${i % SERIES_COLOURS}`);
         context.fillText(label(series), x, head / 2);
         x += context.measureText(label(series)).width + 24 * ratio;
     });

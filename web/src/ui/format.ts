@@ -2,7 +2,8 @@
 // Numbers as text, with the same number of decimals down a column.
 
 export const NOTHING = "–";
-const grouped = new Intl.NumberFormat("en-US");
+const grouped = new Intl.NumberFormat("en-US"),
+    rates = new Intl.NumberFormat("en-US", { minimumFractionDigits: 1, maximumFractionDigits: 1 });
 
 export const count = (value: number | null | undefined): string => (value == null ? NOTHING : grouped.format(value));
 
@@ -13,6 +14,7 @@ export function fixed(value: number | null | undefined, decimals: number): strin
 
 export function hertz(value: number | null | undefined): string {
     if (value == null) return NOTHING;
+    if (value >= 1000) return rates.format(value);
     return value > 0 && value < 0.05 ? "<0.1" : value.toFixed(1);
 }
 

@@ -28,6 +28,8 @@ export function nextTheme(): void {
 matchMedia("(prefers-color-scheme: light)").addEventListener("change", apply);
 apply();
 
+export const SERIES_COLOURS = 8; // series-0 to series-7 of the style sheet
+
 // A colour of the style sheet, for canvases.
 export function colour(name: string): string {
     const probe = document.createElement("i");

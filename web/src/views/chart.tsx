@@ -8,11 +8,10 @@ import { plots } from "../model/state";
 import type { SeriesState } from "../model/url";
 import { pause, pointsOf, shownRange, standing, thinned, zoom } from "../model/window";
 import { followTouches } from "./touch";
-import { colour, themeVersion } from "../ui/theme";
+import { colour, SERIES_COLOURS, themeVersion } from "../ui/theme";
 
 const HEIGHT = 220;
 const DASHES = [[], [6, 3], [2, 2], [8, 3, 2, 3]];
-export const SERIES_COLOURS = 8;
 
 export const cursorTime = signal<number | null>(null); // where the pointer is, in all charts
 

@@ -153,8 +153,13 @@ const COMPARED: Record<string, string[]> = {
     jitter: [],
 };
 
+// Rows of one topic differ by their links.
+const needsLinks = computed(() => new Set(shown.value.map((row) => row.topic)).size < shown.value.length);
+
 function columnsNow(): Column<Row>[] {
-    const chosen = COLUMNS.filter((column) => columns.value.includes(column));
+    const chosen = COLUMNS.filter(
+        (column) => columns.value.includes(column) || (column === "link" && needsLinks.value),
+    );
     const wanted = chosen.toSpliced(chosen.indexOf("name") + 1, 0, "mark");
     const all = isComparing.value ? wanted.flatMap((one) => COMPARED[one] ?? [one]) : wanted;
     return all.flatMap((name) => ALL[name] ?? []);
@@ -283,12 +288,17 @@ const keys = {
     c: compare,
 };
 
+// Of the open message on all links.
+function rateOpen(): number | null {
+    const open = shown.value.filter((row) => row.topic === opened.value);
+    return open.length === 0 ? null : open.reduce((sum, row) => sum + shownRate(row), 0);
+}
+
 export function Messages() {
     useEffect(() => trafficFeed.use(), []);
     useEffect(() => linkFeed.use(), []);
     useLayoutEffect(() => useKeys(keys), []);
     seconds.value;
-    const rowOpen = shown.value.find((row) => row.topic === opened.value);
     return (
         <>
             <h2 class="hidden">Messages</h2>
@@ -307,7 +317,7 @@ export function Messages() {
                 {rows.size === 0 && <Nothing text="No message has come yet." />}
                 {rows.size > 0 && shown.value.length === 0 && <p class="empty">No message matches the search.</p>}
             </div>
-            {opened.value !== null && <Message hz={rowOpen ? shownRate(rowOpen) : null} />}
+            {opened.value !== null && <Message hz={rateOpen()} />}
         </>
     );
 }

@@ -3,7 +3,7 @@ import { computed, signal, type Signal } from "@preact/signals";
 import { useLayoutEffect, useRef } from "preact/hooks";
 import type uPlot from "uplot";
 import { seconds } from "../model/feeds";
-import { recorderOf, recordersVersion } from "../model/recorders";
+import { keyOf, recorderOf, recordersVersion } from "../model/recorders";
 import type { FormulaError } from "../model/formula";
 import { checkFormula, topicOf } from "../model/series";
 import { newSeries, opened, plot as addTo, plots, span } from "../model/state";
@@ -13,8 +13,9 @@ import { saveCsv, savePng } from "../ui/export";
 import { count, shortNumber } from "../ui/format";
 import { Icon } from "../ui/icon";
 import { focusOn, useKeys } from "../ui/keys";
+import { SERIES_COLOURS } from "../ui/theme";
 import { channels, channelsVersion } from "../wire/connection";
-import { Chart, cursorTime, SERIES_COLOURS, valueAt } from "./chart";
+import { Chart, cursorTime, valueAt } from "./chart";
 import { Message, SERIES_TYPE } from "./message";
 
 // ---- changes
@@ -337,7 +338,7 @@ function Legend({ plot, at }: { plot: SeriesState[]; at: number }) {
             </thead>
             <tbody>
                 {plot.map((series, i) => (
-                    <Line key={`${series.topic} ${series.formula}`} series={series} at={at} index={i} />
+                    <Line key={keyOf(series)} series={series} at={at} index={i} />
                 ))}
             </tbody>
         </table>

@@ -43,7 +43,7 @@ const lacksFix = (gps: Vehicle["gps"]): boolean => ["no GPS", "no fix"].includes
 const heading = (position: Vehicle["position"]): string =>
     position?.heading_deg == null ? NOTHING : String(Math.round(position.heading_deg) % 360);
 // Its latest: TIMESYNC, else PING, else a command.
-export function roundTrip(one: Vehicle): { text: string; help: string } {
+function roundTrip(one: Vehicle): { text: string; help: string } {
     const all: [string, RoundTrip | null | undefined][] = [
         ["TIMESYNC", one.round_trip_ms?.timesync],
         ["PING", one.round_trip_ms?.ping],

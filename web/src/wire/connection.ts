@@ -32,6 +32,7 @@ export const isLive = signal(false);
 export const retryAt = signal<number | null>(null); // by Date.now()
 export const lostAt = signal<number | null>(null);
 export const serverName = signal("");
+export const slowness = signal(""); // what the server dropped because this page reads too slowly; empty: nothing
 export const channelsVersion = signal(0);
 export const channels = new Map<string, Channel>();
 
@@ -92,6 +93,7 @@ interface FromServer {
     channels?: Advertised[];
     channelIds?: number[];
     name?: string;
+    id?: string;
     message?: string;
 }
 
@@ -100,6 +102,7 @@ function takeText(text: string): void {
     if (message.op === "advertise") advertise(message.channels ?? []);
     else if (message.op === "unadvertise") forget(message.channelIds ?? []);
     else if (message.op === "serverInfo") serverName.value = message.name ?? "";
+    else if (message.op === "status" && message.id === "drops") slowness.value = message.message ?? "";
     else if (message.op === "status") console.warn(message.message);
 }
 
@@ -132,6 +135,7 @@ function closed(): void {
         if (isLive.value || lostAt.value === null) lostAt.value = Date.now();
         isLive.value = false;
         retryAt.value = Date.now() + pauseMs;
+        slowness.value = "";
     });
     timer = window.setTimeout(connect, pauseMs);
     pauseMs = Math.min(LONGEST_PAUSE_MS, pauseMs * 1.6);
