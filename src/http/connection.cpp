@@ -64,6 +64,11 @@ std::string choose(const std::vector<std::string>& ours, std::string_view offere
 
 constexpr std::string_view get_and_head_only = "GET and HEAD only\n";
 
+std::string wrong_host_text(const std::string& option) {
+    return fmt::format("the Host header must be this address{}\n",
+                       option.empty() ? " or localhost" : ", localhost, or a name of " + option);
+}
+
 std::string switching_protocols(std::string_view key, const std::string& subprotocol) {
     return fmt::format(
         "HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
@@ -175,11 +180,7 @@ void Connection::answer(const BeastRequest& request) {
     const auto host = view_of(request[field::host]), origin = view_of(request[field::origin]);
     if (request.count(field::host) > 1) return refuse(400, Count::wrong_host, "there are two Host headers\n");
     if (!server_->allowed.has_host(host, local_, mono_now()))
-        return refuse(403, Count::wrong_host,
-                      server_->options.access.own_names
-                          ? "the Host header must be this address, localhost, or a name of --host (--web-host of "
-                            "route and sim)\n"
-                          : "the Host header must be this address or localhost\n");
+        return refuse(403, Count::wrong_host, wrong_host_text(server_->options.access.hosts_option));
     if (!server_->allowed.has_origin(origin, host))
         return refuse(403, Count::wrong_origin, fmt::format("pages of {} may not connect here\n", shown(origin)));
     if (!origin.empty() && server_->allowed.is_listed(origin)) listed_origin_ = origin;

@@ -97,11 +97,6 @@ void Session::count_message(std::size_t blocks, std::size_t bytes) {
     counters_.bytes_out.add(bytes);
 }
 
-std::size_t Session::queued_blocks() const {
-    const std::lock_guard lock(mutex_);
-    return queue_.blocks();
-}
-
 std::size_t Session::queued_bytes() const {
     const std::lock_guard lock(mutex_);
     return queue_.bytes();

@@ -3,6 +3,7 @@
 decoder, and urllib. Frames are pymavlink's."""
 import contextlib
 import json
+import re
 import socket
 import struct
 import urllib.error
@@ -366,6 +367,7 @@ def test_foreign_pages_and_names_are_refused(web):
         with pytest.raises(urllib.error.HTTPError) as refused:
             server.get("/api/v1/messages", **request)
         assert refused.value.code == 403
+    assert refused.value.read() == b"the Host header must be this address, localhost, or a name of --host\n"
     with pytest.raises(InvalidStatus) as refused:
         server.viewer(additional_headers=foreign)
     assert refused.value.response.status_code == 403
@@ -419,6 +421,31 @@ def test_a_viewer_that_never_reads_takes_nothing_from_others(web):
             server.send(attitude(i))
             server.send(text(str(i)))
         assert [viewer.next()[2].text for _ in range(ESSENTIAL)] == [str(i) for i in range(ESSENTIAL)]
+
+
+def test_a_viewer_that_reads_too_late_gets_a_status_with_its_losses(web):
+    """Each such status has the same id, so that viewers show the newest only (Foxglove's protocol, "Status")."""
+    server = web()
+    server.send(text("begin"))
+    with server.viewer() as viewer:
+        viewer.subscribe("/1/1/STATUSTEXT")
+        channel = next(one["id"] for one in viewer.channels.values() if one["topic"] == "/1/1/STATUSTEXT")
+    with socket.create_connection(("127.0.0.1", server.port), timeout=harness.DEFAULT_TIMEOUT_S) as late:
+        late.sendall(b"GET / HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+                     b"Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n")
+        assert late.recv(12) == b"HTTP/1.1 101"
+        late.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 65536)
+        wish = json.dumps({"op": "subscribe", "subscriptions": [{"id": 1, "channelId": channel}]}).encode()
+        late.sendall(bytes([0x81, 0x80 + len(wish), 0, 0, 0, 0]) + wish)  # masked with zeros
+        for i in range(6000):
+            server.send(text(f"{i:050}"))
+        got, status = b"", None
+        while not (status := re.search(rb'\{"op":"status".*?\}', got)):
+            got = got[-1000:] + late.recv(1 << 16)
+            server.send(text("next"))
+    told = json.loads(status[0])
+    assert (told["id"], told["level"]) == ("drops", 1)
+    assert re.search(r"too slow: [1-9]\d* messages were not sent", told["message"])
 
 
 def test_a_stream_that_is_read_too_late_counts_what_it_lost(web):

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <charconv>
 #include <filesystem>
 #include <system_error>
@@ -15,6 +16,11 @@ namespace mavloom::app {
 namespace {
 
 constexpr std::uint64_t smallest_buffer = 64 * 1024;  // the longest datagram
+
+SetupError with_next_step(SetupError error) {
+    if (error.sys_errno == EADDRINUSE) error.text += "; end that program, or choose another port";
+    return error;
+}
 
 }  // namespace
 
@@ -92,7 +98,7 @@ SetupResult<std::unique_ptr<feed::Receiver>> ReceiveOptions::open(const Common& 
     auto receiver = feed::Receiver::create(dialect, *bytes, std::move(notice));
     if (!receiver) return receiver;
     for (const auto& endpoint : *endpoints)
-        if (auto added = (*receiver)->add(endpoint); !added) return tl::unexpected(std::move(added.error()));
+        if (auto added = (*receiver)->add(endpoint); !added) return tl::unexpected(with_next_step(added.error()));
     return receiver;
 }
 

@@ -66,11 +66,9 @@ void Serving::note_counts() {
 }
 
 SetupResult<std::unique_ptr<web::Server>> open_server(const dialect::Dialect& dialect, const endpoint::HostPort& place,
-                                                      std::string_view option, std::vector<std::string> hosts,
-                                                      std::vector<std::string> origins) {
-    auto server = web::Server::listen(dialect, {.addresses = {*net::Address::parse(place.host, place.port)},
-                                                .hosts = std::move(hosts),
-                                                .origins = std::move(origins)});
+                                                      std::string_view option, web::Options access) {
+    access.addresses = {*net::Address::parse(place.host, place.port)};
+    auto server = web::Server::listen(dialect, access);
     if (server) return server;
     auto error = std::move(server.error()).within(option);
     if (error.code == SetupCode::in_use) error.text += fmt::format("; choose another with {}", option);

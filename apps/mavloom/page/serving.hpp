@@ -77,12 +77,10 @@ private:
     bool going_ = true, has_said_ = false;
 };
 
-// Errors name `option`, which has the place.
+// Errors name `option`, which has the place; `access` has all but the addresses.
 [[nodiscard]] SetupResult<std::unique_ptr<web::Server>> open_server(const dialect::Dialect& dialect,
                                                                     const endpoint::HostPort& place,
-                                                                    std::string_view option,
-                                                                    std::vector<std::string> hosts = {},
-                                                                    std::vector<std::string> origins = {});
+                                                                    std::string_view option, web::Options access = {});
 
 // Where a browser on this machine finds the server.
 [[nodiscard]] std::string place_of(const net::Address& address);

@@ -39,7 +39,8 @@ SetupResult<std::unique_ptr<web::Server>> listen(const WebOptions& options, cons
         if (!parsed) return tl::unexpected(SetupError(parsed.error()).within("--origin"));
         origins.insert(origins.end(), parsed->begin(), parsed->end());
     }
-    return open_server(dialect, *place, "--listen", options.hosts, origins);
+    return open_server(dialect, *place, "--listen",
+                       {.hosts = options.hosts, .hosts_option = "--host", .origins = std::move(origins)});
 }
 
 // After the end of a recording, clients still see its latest messages.

@@ -45,7 +45,8 @@ private:
 SetupResult<std::unique_ptr<WebBeside>> WebBeside::open(const Common& common, const dialect::Dialect& dialect,
                                                         const config::WebConfig& config, const Beside& beside) {
     if (!config.listen) return std::unique_ptr<WebBeside>();
-    auto server = open_server(dialect, *config.listen, "--web", config.hosts, config.origins);
+    auto server = open_server(dialect, *config.listen, "--web",
+                              {.hosts = config.hosts, .hosts_option = "--web-host", .origins = config.origins});
     if (!server) return tl::unexpected(std::move(server.error()));
     std::unique_ptr<RingServing> frames;
     if (!beside.ring.empty()) {

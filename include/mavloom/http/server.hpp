@@ -28,6 +28,7 @@ struct Access {
     bool any_host = false;
     bool own_names = true;             // also the other addresses of this machine, its name, and its name with .local
     std::vector<std::string> hosts{};  // and these
+    std::string hosts_option{};        // of the program, that adds to them; a refusal names it
     // An Origin header must be in this list, as in "https://app.example.com"; "*" allows all. The server's own origin
     // is allowed too, unless `any_host`. Requests without the header pass: it is browsers that send it.
     std::vector<std::string> origins{};

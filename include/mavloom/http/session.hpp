@@ -99,8 +99,7 @@ public:
     void close(std::uint16_t code, const std::string& text) { orders_.close(code, text); }
     // See SessionEvents::on_message.
     void resume() { orders_.resume(); }
-    // The blocks that wait now, and their bytes.
-    [[nodiscard]] std::size_t queued_blocks() const;
+    // The bytes of the blocks that wait now.
     [[nodiscard]] std::size_t queued_bytes() const;
 
     // Private to the module: appends the next messages as frames, until `output` has `up_to` bytes or more. Returns the

@@ -25,6 +25,7 @@ namespace mavloom::web {
 struct Options {
     std::vector<net::Address> addresses{};  // with port 0, the kernel chooses one
     std::vector<std::string> hosts{};       // further names of this machine, for the Host header
+    std::string hosts_option{};             // of the program, that adds to them; empty: it has none
     std::vector<std::string> origins{};     // pages that may connect, as in "https://app.example.com"; "*": all
 };
 

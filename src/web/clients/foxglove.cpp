@@ -87,8 +87,10 @@ std::string server_info() {
                     {"metadata", Json::object()}});
 }
 
-std::string status(Level level, std::string_view text) {
-    return text_of({{"op", "status"}, {"level", static_cast<int>(level)}, {"message", text}});
+std::string status(Level level, std::string_view text, std::string_view id) {
+    Json all{{"op", "status"}, {"level", static_cast<int>(level)}, {"message", text}};
+    if (!id.empty()) all["id"] = id;
+    return text_of(all);
 }
 
 std::string description(std::string_view type, std::string_view schema) {

@@ -33,7 +33,8 @@ struct Request {
 
 [[nodiscard]] std::string server_info();
 enum class Level : std::uint8_t { info, warning, error };
-[[nodiscard]] std::string status(Level level, std::string_view text);
+// A status with an id replaces the one before it with that id.
+[[nodiscard]] std::string status(Level level, std::string_view text, std::string_view id = {});
 
 // The part of an advertisement that all channels of one type share, for Kind::description.
 [[nodiscard]] std::string description(std::string_view type, std::string_view schema);

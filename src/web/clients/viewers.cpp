@@ -236,7 +236,7 @@ void Viewers::flush(MonoTime now) {
     for (const auto& [session, viewer] : all_) {
         if (!std::exchange(viewer->has_new, false)) continue;
         if (const auto drops = viewer->drops.news(*viewer->session, now))
-            send_status(*viewer, foxglove::Level::warning, drops_text(*drops), now);
+            send_text(*viewer, foxglove::status(foxglove::Level::warning, drops_text(*drops), "drops"), now);
         viewer->has_new = false;
         viewer->session->flush();
     }

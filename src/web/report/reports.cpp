@@ -237,8 +237,8 @@ void add_vehicle(Out& out, const observe::Vehicle& vehicle, MonoTime now, const 
     add(out, R"(,"armed":{},)", vehicle.is_armed);
     add_enum(out, "status", dialect, "MAV_STATE", vehicle.status);
     const auto age = now - vehicle.heard;
-    add(out, R"("age_s":{:.2f},"silent":{},"hz":{:.1f},)", seconds(age), !vehicle.has_ended && age >= observe::silence,
-        vehicle.hz);
+    const bool is_silent = !vehicle.has_ended && age >= observe::silence;
+    add(out, R"("age_s":{:.2f},"silent":{},"hz":{:.1f},)", seconds(age), is_silent, is_silent ? 0 : vehicle.hz);
     add_battery(out, vehicle.battery);
     add_gps(out, vehicle.gps, dialect);
     add_position(out, vehicle.position);

@@ -565,7 +565,7 @@ def test_a_port_in_use_is_an_error_at_once(run):
         done = run("listen", f"udpin://127.0.0.1:{taken.getsockname()[1]}")
 
     assert done.status == 1
-    assert "in use" in done.stderr
+    assert re.search(r"in use by \S+ \(process \d+\); end that program, or choose another port$", done.stderr.strip())
 
 
 def test_a_missing_recording(run):

@@ -148,7 +148,7 @@ TEST_F(WebSockets, SendsByClass) {
     EXPECT_EQ(session.counters().messages_out.value(), 2u);
     session.push(bytes_of("late"), 0, 0, mono_now());
     session.flush();
-    EXPECT_EQ(session.queued_blocks(), 0u);
+    EXPECT_EQ(session.queued_bytes(), 0u);
 }
 
 TEST_F(WebSockets, WhatHasLeftIsReported) {

@@ -62,8 +62,9 @@ TEST(Reports, ARowMayHaveNoSteadyRate) {
     EXPECT_EQ(all[1]["silent_after_s"], nullptr);
 }
 
-TEST(Reports, AVehicleIsSilentUnlessItsRecordingEnded) {
+TEST(Reports, AVehicleIsSilentAndHasNoRateUnlessItsRecordingEnded) {
     std::vector<observe::Vehicle> some(3);
+    for (auto& one : some) one.hz = 80;
     some[0].heard = now.mono - std::chrono::milliseconds(4900);
     some[1].heard = some[2].heard = now.mono - std::chrono::seconds(5);
     some[2].has_ended = true;
@@ -71,6 +72,9 @@ TEST(Reports, AVehicleIsSilentUnlessItsRecordingEnded) {
     EXPECT_EQ(all[0]["silent"], false);
     EXPECT_EQ(all[1]["silent"], true);
     EXPECT_EQ(all[2]["silent"], false);
+    EXPECT_EQ(all[0]["hz"], 80);
+    EXPECT_EQ(all[1]["hz"], 0);
+    EXPECT_EQ(all[2]["hz"], 80);
 }
 
 TEST(Reports, AlarmsThatLeftAreCounted) {
