@@ -214,8 +214,11 @@ private:
     bool is_first_ = true;
 };
 
-bool is_byte_stream(const SchemeRow& scheme) {
-    return scheme.form == Form::device || (scheme.carrier == Carrier::tcp && scheme.form == Form::address);
+std::string names_of_streams() {
+    std::vector<std::string_view> names;
+    for (const SchemeRow& row : scheme_rows)
+        if (row.is_stream) names.push_back(row.name);
+    return fmt::format("{}", fmt::join(names, ", "));
 }
 
 const Faults no_faults{};
@@ -246,8 +249,8 @@ SetupResult<std::uint64_t> parse_fault_seed(std::string_view text) {
 }
 
 SetupResult<void> check_faults(const Faults& faults, const SchemeRow& scheme) {
-    if (faults.cut == 0 || is_byte_stream(scheme)) return {};
-    return usage(fmt::format("'cut' is a fault of byte streams (tcpin, tcpout, serial), not of {}", scheme.name));
+    if (faults.cut == 0 || scheme.is_stream) return {};
+    return usage(fmt::format("'cut' is a fault of byte streams ({}), not of {}", names_of_streams(), scheme.name));
 }
 
 const Faults& inward_faults(const EndpointOptions& options) noexcept {

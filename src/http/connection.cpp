@@ -125,7 +125,7 @@ void Connection::wait_for_client() {
     deadline_.async_wait([weak = weak_from_this()](error_code error) {
         const auto self = weak.lock();
         if (error || !self || self->deadline_.expiry() > std::chrono::steady_clock::now()) return;
-        if (self->socket_.is_open()) self->server_->counters.add(Count::timed_out);
+        if (self->socket_.is_open()) self->report(Count::timed_out, "no whole request came in time");
         self->hang_up();
     });
 }
@@ -165,7 +165,7 @@ void Connection::refuse_malformed(error_code error) {
         return refuse(431, Count::header_size, "the header is too long\n");
     if (error == http::error::body_limit) return refuse_body();
     if (error == http::error::end_of_stream || error.category() == asio::error::get_system_category()) return;
-    server_->counters.add(Count::bad_request);
+    report(Count::bad_request, "it sent no HTTP");
     hang_up();
 }
 
@@ -259,17 +259,20 @@ void Connection::open(const BeastRequest& request, const StreamRoute& route) {
                                          }}));
 }
 
-// Sessions that are closing take no place, up to a bound for peers that never close.
+// Sessions that are closing take no place. There may be peers that never close: beyond a bound, the oldest of these
+// sessions is cut for a newcomer.
 bool Connection::has_room_for_session() {
     auto& all = server_->open;
     const auto most = server_->options.limits.web_sockets;
+    const auto is_closing = [](const auto& one) { return one.lock()->is_closing(); };
     std::erase_if(all, [](const auto& one) { return one.expired(); });
-    const auto open = std::ranges::count_if(all, [](const auto& weak) {
-        const auto one = weak.lock();
-        return one && !one->is_closing();
-    });
-    return static_cast<std::size_t>(open) < most && all.size() < 2 * most + 16 &&
-           !net::few_descriptors_left(socket_.native_handle());
+    const auto closing = static_cast<std::size_t>(std::ranges::count_if(all, is_closing));
+    if (all.size() - closing >= most || net::few_descriptors_left(socket_.native_handle())) return false;
+    if (all.size() < 2 * most + 16) return true;
+    const auto oldest = std::ranges::find_if(all, is_closing);
+    oldest->lock()->cut();
+    all.erase(oldest);
+    return true;
 }
 
 void Connection::call(const BeastRequest& request, const Route& route) {
@@ -286,10 +289,13 @@ void Connection::respond(const Response& response) {
     if (server_->waiting.erase(shared_from_this()) != 0) write(response);
 }
 
-void Connection::refuse(int status, Count why, std::string_view text) {
+void Connection::report(Count why, std::string_view reason) const {
     server_->counters.add(why);
-    if (const auto& on_refused = server_->options.on_refused)
-        on_refused({remote_, why, text.substr(0, text.find('\n'))});
+    if (const auto& on_refused = server_->options.on_refused) on_refused({remote_, why, reason});
+}
+
+void Connection::refuse(int status, Count why, std::string_view text) {
+    report(why, text.substr(0, text.find('\n')));
     write({.status = status, .body = std::make_shared<const std::string>(text)});
 }
 

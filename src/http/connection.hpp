@@ -77,6 +77,7 @@ private:
     void respond(const Response& response);
     void call(const BeastRequest& request, const Route& route);
     void refuse(int status, Count why, std::string_view text);
+    void report(Count why, std::string_view reason) const;
     void write(const Response& response);
     [[nodiscard]] std::string head(int status, std::string_view content_type, std::string_view more) const;
     [[nodiscard]] std::string sharing() const;

@@ -12,6 +12,8 @@ public:
     virtual ~OpenSession() = default;
     // Ends the connection at once. Nothing is called back any more.
     virtual void abandon() = 0;
+    // Ends the connection at once, and reports that if the session has not ended yet.
+    virtual void cut() = 0;
     // It only waits for its peer.
     [[nodiscard]] virtual bool is_closing() const = 0;
 };

@@ -39,6 +39,7 @@ public:
         setup_.on_ended = {};
         end({Ended::by_us, 0, ""});
     }
+    void cut() override { end({Ended::by_us, 0, ""}); }
     [[nodiscard]] bool is_closing() const override { return has_ended_ || is_closing_; }
 
 private:

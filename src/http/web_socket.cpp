@@ -75,6 +75,8 @@ public:
         close_socket();
     }
 
+    void cut() override { give_up(); }
+
     [[nodiscard]] bool is_closing() const override { return has_ended_ || close_with_ != close_code::none; }
 
 private:
@@ -215,6 +217,7 @@ private:
     [[nodiscard]] bool is_due() const { return timer_.expiry() <= std::chrono::steady_clock::now(); }
     void give_up() {
         end({Ended::by_us, 0, "the far side did not close in time"});
+        timer_.cancel();
         close_socket();
     }
 

@@ -36,7 +36,6 @@ struct Link {
     virtual void schedule() = 0;
     // Parses a datagram, a message or the next bytes of a stream, during a turn. Ignored if the link has ended.
     virtual void hear(ByteView, WallTime) {}
-    [[nodiscard]] virtual bool is_stream() const noexcept { return false; }
 
     // How the link sends.
     enum class Sending : std::uint8_t {

@@ -138,7 +138,7 @@ void Links::remove(EndpointId endpoint) {
 }
 
 static bool may_have_stages(const OpenEndpoint* endpoint) {
-    return endpoint != nullptr && endpoint->info.endpoint.scheme != endpoint::Scheme::shm;
+    return endpoint != nullptr && !endpoint->info.endpoint.is_ring();
 }
 
 bool Links::set_stages(EndpointId endpoint, CreateStages create) {

@@ -52,7 +52,6 @@ public:
         counters.implausible_unknown.set(parser_.counters().implausible_unknown.value());
         if (parser_.deadline()) core_.tickers.keep(*this);
     }
-    [[nodiscard]] bool is_stream() const noexcept override { return true; }
     void on_io(net::IoEvents events) override {
         if (events.writable && blocked_) {
             blocked_ = false;

@@ -80,8 +80,9 @@ private:
         http::ServerOptions options{.addresses = addresses, .v6_only = addresses.size() > 1};
         // A page's own name may lead here, but then its origin is foreign.
         options.access = {.any_host = true, .origins = endpoint_.options.origins};
-        // One more than fits, so that Links can evict a silent client for it.
-        options.limits.web_sockets = endpoint_.options.max_peers + 1;
+        // More than fit, so that Links can choose: it evicts a silent client for a newcomer, or closes the newcomer.
+        constexpr std::size_t at_the_door = 16;
+        options.limits.web_sockets = endpoint_.options.max_peers + at_the_door;
         options.web_sockets.push_back({.path = path_of(endpoint_),
                                        .session = session_options(),
                                        .on_open = [sessions = sessions_](const std::shared_ptr<http::Session>& session) {
@@ -95,9 +96,10 @@ private:
         using enum http::Count;
         const bool is_full = refused.counter == turned_away;
         if (std::exchange(reported_[static_cast<std::size_t>(refused.counter)], true)) return;
-        const auto advice = refused.counter == wrong_origin ? "; origin= lists the pages that may"
-                            : is_full                       ? "; max_peers= limits them"
-                                                            : "";
+        const auto advice = refused.counter == wrong_origin  ? "; origin= lists the pages that may"
+                            : refused.counter == bad_request ? "; it is wsout that calls here, not tcpout"
+                            : is_full                        ? "; max_peers= limits them"
+                                                             : "";
         const auto counter = is_full                           ? "peers_refused"
                              : refused.counter == wrong_origin ? "wrong_origin"
                                                                : "bad_handshake";

@@ -61,6 +61,7 @@ struct SchemeRow {
     // Asks why nothing was heard: a format text over {address} and {port} of the far side, {local_port}, and {baud}.
     std::string_view if_silent;
     std::string_view help;
+    bool is_stream = false;  // what is sent in one piece may arrive in several
 };
 
 inline constexpr std::array<SchemeRow, 11> scheme_rows{{
@@ -115,7 +116,8 @@ inline constexpr std::array<SchemeRow, 11> scheme_rows{{
      .options = takes::stream | takes::peers,
      .counterpart = "tcpout",
      .if_silent = "a client is connected: does it send MAVLink?",
-     .help = "accepts clients; each is a link"},
+     .help = "accepts clients; each is a link",
+     .is_stream = true},
     {.scheme = Scheme::tcpout,
      .name = "tcpout",
      .form = Form::address,
@@ -125,7 +127,8 @@ inline constexpr std::array<SchemeRow, 11> scheme_rows{{
      .options = takes::stream | takes::bind,
      .counterpart = "tcpin",
      .if_silent = "{address} accepted the connection: does it send MAVLink?",
-     .help = "connects to one address, again and again"},
+     .help = "connects to one address, again and again",
+     .is_stream = true},
     {.scheme = Scheme::wsin,
      .name = "wsin",
      .form = Form::address_and_path,
@@ -156,7 +159,8 @@ inline constexpr std::array<SchemeRow, 11> scheme_rows{{
      .counterpart = "serial",
      .if_silent = "is it the right port, is the baud rate right ({baud}), are the wires crossed (TX to RX), and does "
                   "the far side send MAVLink on that port?",
-     .help = "opens a serial device"},
+     .help = "opens a serial device",
+     .is_stream = true},
     {.scheme = Scheme::shm,
      .name = "shm",
      .form = Form::ring,

@@ -87,7 +87,8 @@ struct WebSocketRoute {
     std::function<SessionEvents(const std::shared_ptr<Session>&)> on_open{};
 };
 
-// A client that was refused or turned away: where it came from, what counts it, and the reason as it got it.
+// A client that was refused or turned away: where it came from, what counts it, and the reason. If it got an answer,
+// that states the reason too.
 struct Refused {
     net::Address remote;
     Count counter;

@@ -75,7 +75,7 @@ struct Stages {
 struct StageSite {
     LinkId link;
     std::string_view name;   // valid during the call
-    bool is_stream = false;  // tcp and serial
+    bool is_stream = false;  // of the scheme, see SchemeRow
     std::uint64_t ordinal;   // how many links the endpoint had before this one, those that are gone included
     LinkCounters& counters;
     const wire::MessageTable& table;

@@ -75,7 +75,8 @@ void Core::create_stages(Link& link) {
 }
 
 void Core::set_stages(Link& link, const CreateStages& create) {
-    const StageSite site{link.id, link.name, link.is_stream(), link.ordinal, link.counters, link.dialect->table};
+    const bool is_stream = endpoints.find(link.endpoint)->info.endpoint.row().is_stream;
+    const StageSite site{link.id, link.name, is_stream, link.ordinal, link.counters, link.dialect->table};
     put_stages(link, create(site), create);
 }
 

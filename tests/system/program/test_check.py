@@ -185,7 +185,7 @@ def rows(page):
 def test_the_guide_names_every_option_and_key_with_its_default(run, tmp_path):
     urls = {"udpin": "udpin://127.0.0.1:1", "udpout": "udpout://127.0.0.1:2", "udpbcast": "udpbcast://10.0.0.255:3",
             "tcpin": "tcpin://127.0.0.1:4", "udpmcast": "udpmcast://239.255.145.50:5", "tcpout": "tcpout://127.0.0.1:6",
-            "serial": "serial:///dev/ttyS0",
+            "wsin": "wsin://127.0.0.1:7", "wsout": "wsout://127.0.0.1:8", "serial": "serial:///dev/ttyS0",
             "tlog": "tlog://x.tlog"}  # shm:// is no endpoint of a router
     path = tmp_path / "all.toml"
     path.write_text("".join(f'[[endpoint]]\nurl = "{url}"\n' for url in urls.values()))
@@ -198,10 +198,12 @@ def test_the_guide_names_every_option_and_key_with_its_default(run, tmp_path):
 
     options = {(scheme, row[0]): row[2].removesuffix(" for udp*") for row in rows("endpoints.md") if len(row) == 4
                for scheme in urls if takes(row[1], scheme)}
-    del options["tcpin", "idle"], options["tcpout", "idle"]  # the guide states in words that TCP has no default
+    connections = ("tcpin", "tcpout", "wsin", "wsout")  # the guide states in words that `idle` has no default for these
+    for scheme in connections:
+        del options[scheme, "idle"]
     found = {(v["endpoint"].split(":")[0], v["key"]): v["value"] or "" for v in effective if v["section"] == "endpoint"
              and v["key"] != "url"}
-    assert (found.pop(("tcpin", "idle")), found.pop(("tcpout", "idle"))) == ("", "")
+    assert [found.pop((scheme, "idle")) for scheme in connections] == [""] * 4
     assert found == options
 
     keys = {(row[0], row[1]): row[2] for row in rows("configuration.md") if len(row) == 4}

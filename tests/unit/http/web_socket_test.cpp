@@ -417,17 +417,23 @@ TEST_F(WebSockets, AreLimited) {
     (void)open();
 }
 
-TEST_F(WebSockets, ThoseThatAreClosingTakeNoPlaceUpToABound) {
+// Peers that never close keep nobody out.
+TEST_F(WebSockets, ThoseThatAreClosingTakeNoPlaceAndBeyondABoundTheOldestGo) {
     serve({});
     std::vector<RawClient> clients;
-    clients.reserve(48);
-    for (int i = 0; i < 48; ++i) {
+    clients.reserve(52);
+    for (int i = 0; i < 52; ++i) {
         clients.push_back(open());
         locked([&] { return sessions.back(); })->close(1000, "");
     }
-    auto sut = client();
-    sut.send(upgrade + "\r\n");
-    EXPECT_THAT(sut.read_until("too many WebSockets are open\n"), StartsWith("HTTP/1.1 503 Service Unavailable\r\n"));
+    const auto is_open = [](const RawClient& one) {
+        char byte = 0;
+        return ::recv(one.fd(), &byte, 1, MSG_PEEK | MSG_DONTWAIT) != 0;
+    };
+    for (auto& one : clients) EXPECT_EQ(one.read_bytes(4), "\x88\x02\x03\xe8") << "1000: closed";
+    EXPECT_TRUE(eventually([&] { return !is_open(clients[3]); }));
+    EXPECT_EQ(std::ranges::count_if(clients, is_open), 48);
+    EXPECT_TRUE(is_open(clients[4]));
 }
 
 TEST_F(WebSockets, EndWithTheServer) {

@@ -128,6 +128,8 @@ TEST_F(WebSocketLinks, GarbageInsteadOfAHandshakeIsCounted) {
     in = near.add("wsin://127.0.0.1:0");
     (void)answer_to("\xfd\x09\x01\x02\r\n\r\n");
     EXPECT_EQ(counters().bad_handshake.value(), 1u);
+    ASSERT_TRUE(until([&] { return near.recorder.notices.size() == 2; }, near));
+    EXPECT_THAT(near.recorder.notices[1], HasSubstr("was refused: it sent no HTTP; it is wsout that calls here"));
 }
 
 TEST_F(WebSocketLinks, AClientThatNeverReadsLosesOldTelemetryAndNothingElse) {
