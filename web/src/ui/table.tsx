@@ -61,7 +61,7 @@ function Head<T>({ columns, sort, onSort }: Pick<Properties<T>, "columns" | "sor
                         {onSort && column.label !== "" ? (
                             <button onClick={() => onSort(column.key)}>{column.label}</button>
                         ) : (
-                            column.label
+                            column.label || <span class="hidden">{column.help}</span>
                         )}
                     </th>
                 ))}

@@ -34,12 +34,22 @@ const shown = computed(() => {
     return ordered(shownRows().values(), query.value, sort.value);
 });
 
+// By topic: each of its links has a row.
+const rowsOf = computed(() => {
+    const counts = new Map<string, number>();
+    for (const { topic } of shown.value) counts.set(topic, (counts.get(topic) ?? 0) + 1);
+    return counts;
+});
+
 // ---- the cells
 
 function open(row: Row): void {
     current.value = row.key;
     opened.value = opened.value === row.topic ? null : row.topic;
 }
+
+// A link of several peers has its peer behind a '#'.
+const peerOf = (row: Row): string => row.link?.split("#").at(-1) ?? "";
 
 function Name({ row }: { row: Row }) {
     const isCurrent = row.key === (current.value ?? shown.value[0]?.key);
@@ -55,6 +65,7 @@ function Name({ row }: { row: Row }) {
             }}>
             {row.name}
             {row.instance !== null && <span class="instance">/{row.instance}</span>}
+            {(rowsOf.value.get(row.topic) ?? 0) > 1 && <span class="by dim">{peerOf(row)}</span>}
         </button>
     );
 }
@@ -80,7 +91,7 @@ const gaps = (row: Row): string =>
     row.gap_min_ms == null ? NOTHING : `${fixed(row.gap_min_ms, 0)} – ${fixed(row.gap_max_ms, 0)}`;
 
 const ALL: Record<string, Column<Row>> = {
-    mark: { key: "mark", label: "", cell: marked },
+    mark: { key: "mark", label: "", help: "new or silent", cell: marked },
     link: {
         key: "link",
         label: "Link",
@@ -153,13 +164,8 @@ const COMPARED: Record<string, string[]> = {
     jitter: [],
 };
 
-// Rows of one topic differ by their links.
-const needsLinks = computed(() => new Set(shown.value.map((row) => row.topic)).size < shown.value.length);
-
 function columnsNow(): Column<Row>[] {
-    const chosen = COLUMNS.filter(
-        (column) => columns.value.includes(column) || (column === "link" && needsLinks.value),
-    );
+    const chosen = COLUMNS.filter((column) => columns.value.includes(column));
     const wanted = chosen.toSpliced(chosen.indexOf("name") + 1, 0, "mark");
     const all = isComparing.value ? wanted.flatMap((one) => COMPARED[one] ?? [one]) : wanted;
     return all.flatMap((name) => ALL[name] ?? []);
