@@ -1,7 +1,7 @@
 # -DMAVLOOM_MINIMAL=ON: the modules that the small router has, and flags for a small program.
 include(CheckCXXSourceCompiles)
 
-set(mavloom_modules_left_out feed flight sim simserve view web ws)
+set(mavloom_modules_left_out feed flight hil sim simserve view web ws)
 
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE MinSizeRel)

@@ -241,14 +241,13 @@ SetupResult<Document> load_document(const std::filesystem::path& file) {
 
 // ---- environment ----------------------------------------------------------------------------------------------------
 
-Environment environment_of(const char* const* envp) {
+Environment environment_of(const char* const* envp, std::string_view prefix) {
     Environment environment;
     for (; envp != nullptr && *envp != nullptr; ++envp) {
         const std::string_view text(*envp);
         const auto equals = text.find('=');
         if (equals == std::string_view::npos) continue;
-        if (text.starts_with(variable_prefix))
-            environment.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+        if (text.starts_with(prefix)) environment.emplace_back(text.substr(0, equals), text.substr(equals + 1));
     }
     return environment;
 }

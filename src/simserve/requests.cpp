@@ -13,6 +13,7 @@
 #include "mavloom/base/shown.hpp"
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/simserve/report.hpp"
+#include "simserve/request_values.hpp"
 #include "simserve/scenario/vehicle_fault.hpp"
 
 namespace mavloom::simserve {
@@ -22,22 +23,6 @@ namespace {
 using control::failed;
 using control::Json;
 using control::text_at;
-
-// Empty if the request does not have the key.
-SetupResult<std::optional<double>> number_at(const Json& request, const char* key) {
-    const auto at = request.find(key);
-    if (at == request.end()) return std::nullopt;
-    if (!at->is_number()) return setup_error(SetupCode::usage, fmt::format("'{}' is not a number", key));
-    return at->get<double>();
-}
-
-// False if the request does not have the key.
-SetupResult<bool> flag_at(const Json& request, const char* key) {
-    const auto at = request.find(key);
-    if (at == request.end()) return false;
-    if (!at->is_boolean()) return setup_error(SetupCode::usage, fmt::format("'{}' is neither true nor false", key));
-    return at->get<bool>();
-}
 
 using Vehicles = SetupResult<std::vector<sim::Vehicle*>>;
 

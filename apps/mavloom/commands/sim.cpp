@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "command.hpp"
+#include "commands/sim_for_px4.hpp"
 #include "fault_log.hpp"
 #include "frames/receiving.hpp"
 #include "mavloom/base/durations.hpp"
@@ -59,7 +60,16 @@ constexpr KeyOption key_options[] = {
     {"--seed", "sim", "seed", "seed of the random numbers; the same seed gives the same flight (default: 1)", "N"},
     {"--speed", "sim", "speed",
      "speed of the flight clock, 0.1 to 100 (default: 1), or max: as fast as the vehicles can fly", "X"},
-    {"--for", "sim", "for", "end after this time: 10s, 2m; with --speed max, of the flight", "TIME"},
+    {"--for", "sim", "for", "end after this time: 10s, 2m; with --speed max, of the flight, but with --hil always of real time", "TIME"},
+    {"--hil", "sim", "hil",
+     "let PX4 fly the vehicles, in lock-step (docs/guide/hil.md): it connects to port 4560, the PX4 of a second "
+     "vehicle "
+     "to 4561 and so on; or at another endpoint",
+     "px4[=ENDPOINT]"},
+    {"--hil-sensors", "sim", "hil_sensors",
+     "with --hil: samples a second, the delay of GPS in seconds, and those of a distance sensor (default: "
+     "imu:250,mag:50,baro:50,gps:10,gps_delay:0,distance:0)",
+     "NAME:N,..."},
     {"--start-time", "sim", "start_time", "UTC at the begin of the flight, as in 2026-11-29T12:00:00Z (default: now)",
      "TIME"},
     {"--record", "sim", "record", "record what the vehicles send, with the times of the flight clock; opens no port",
@@ -132,7 +142,9 @@ SetupResult<Scenario> make_scenario(const SimOptions& options) {
         return tl::unexpected(std::move(added.error()));
     if (auto added = add_endpoints(options.listen, "--listen", true, *scenario); !added)
         return tl::unexpected(std::move(added.error()));
-    if (scenario->endpoints.empty() && scenario->ring.name.empty() && scenario->recording.empty())
+    if (auto good = simserve::complete_hil(*scenario, config::environment_of(environ, simserve::px4_prefix)); !good)
+        return tl::unexpected(std::move(good.error()));
+    if (!scenario->hil && scenario->endpoints.empty() && scenario->ring.name.empty() && scenario->recording.empty())
         scenario->endpoints.push_back({*endpoint::parse_endpoint(usual_destination)});
     return scenario;
 }
@@ -226,6 +238,7 @@ Exit simulate(const Common& common, const SimOptions& options) {
     const auto scenario = make_scenario(options);
     if (!scenario) return fail(scenario.error());
     for (const auto& note : scenario->notes) print_notice(common, note);
+    if (scenario->hil) return simulate_for_px4(common, *scenario, *dialect, options.json);
     const auto simulator = make_simulator(common, *scenario, *dialect);
     if (!simulator) return fail(simulator.error());
     const Signals signals([](void* s) noexcept { static_cast<Simulator*>(s)->wake(); }, simulator->get());
@@ -283,6 +296,7 @@ Run declare_sim(Arguments command, const Common& common) {
         "  mavloom sim --vehicles 5 --home 47.3977,8.5456,489,90 --to udpout://192.168.1.20:14550\n"
         "  mavloom sim scenario.toml --for 60s --report\n"
         "  mavloom sim --speed max --for 10m --record flight.tlog\n"
+        "  mavloom sim --hil px4 --speed max\n"
         "  mavloom ctl sim takeoff 10");
     return [options, &common] { return simulate(common, *options); };
 }

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -66,6 +67,11 @@ const std::vector<Action>& actions() {
         {"pause", {}, 0, {}, true},
         {"resume", {}, 0, {}, true},
         {"step", {"seconds"}, 1, "step takes a time of the flight, such as 10ms", true},
+        {"reset", {}, 0, {}, true},
+        {"push", {"push"}, 1, "push takes NORTH,EAST,DOWN in m/s, by which the velocity changes, as in 3,0,0", true},
+        {"turn", {"turn"}, 1, "turn takes ROLL,PITCH,YAW in degrees/s, by which the rates change, as in 0,0,90", true},
+        {"wind", {"wind"}, 1, "wind takes SPEED,DIR[,GUST], as --wind of sim does", true},
+        {"mass", {"kg"}, 1, "mass takes kilograms", true},
         {"wait", {"state", "metres"}, 1, "wait takes ready, armed, disarmed, landed, or alt and metres", true},
         {"fail", {"fault"}, 2, "fail takes a part of the vehicle and its fault, as in fail gps off", true},
         {"param", {"name", "value"}, 1, "param takes the name of a parameter, and its new value if it is to be set", true},
@@ -77,6 +83,12 @@ std::vector<std::string_view> action_names() {
     std::vector<std::string_view> names;
     for (const Action& action : actions()) names.push_back(action.name);
     return names;
+}
+
+// Keys whose value is text; all others are numbers.
+bool is_text_key(std::string_view key) {
+    constexpr std::array<std::string_view, 7> keys{"url", "name", "mode", "faults", "push", "turn", "wind"};
+    return std::ranges::find(keys, key) != keys.end();
 }
 
 SetupResult<double> number_of(std::string_view what, const std::string& text) {
@@ -104,7 +116,7 @@ SetupResult<void> add_arguments(const CtlOptions& options, const Action& action,
                                                                in_quotes(options.arguments[action.arguments.size()])));
     for (std::size_t i = 0; i < options.arguments.size(); ++i) {
         const auto key = action.arguments[i];
-        if (key == "url" || key == "name" || key == "mode" || key == "faults") {
+        if (is_text_key(key)) {
             request[std::string(key)] = options.arguments[i];
             continue;
         }
@@ -240,8 +252,9 @@ Run declare_ctl(Arguments command, const Common&) {
         "links, stats, add URL, remove NAME, fault NAME FAULTS (or off); of a router: routes; of a "
         "simulator: streams, state, arm, disarm, takeoff ALTITUDE, land, rtl, goto LATITUDE LONGITUDE "
         "[ALTITUDE], mode NAME, param NAME "
-        "[VALUE], fail PART FAULT, wait STATE (ready, armed, disarmed, landed, alt METRES), pause, resume, step "
-        "TIME");
+        "[VALUE], fail PART FAULT, wait STATE (ready, armed, disarmed, landed, alt METRES), pause, resume, step TIME; with "
+        "sim --hil: state, pause, resume, step TIME, reset, push N,E,D, turn ROLL,PITCH,YAW, wind "
+        "SPEED,DIR[,GUST], mass KG");
     command.add_option("argument", "ARGUMENT", options->arguments, "what the action takes");
     command.add_option("--system", "N", options->system, "the vehicle with this system id (default: all)");
     command.add_option("--for", "TIME", options->limit, "`wait` ends after this time, with status 1")

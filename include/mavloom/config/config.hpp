@@ -107,12 +107,12 @@ struct Config {
     std::vector<std::string> notes;
 };
 
-// NAME=VALUE pairs whose name begins with MAVLOOM_. For example, MAVLOOM_ROUTER_DEDUP_MS sets `dedup_ms` of [router];
+// NAME=VALUE pairs whose name begins with a prefix. For example, MAVLOOM_ROUTER_DEDUP_MS sets `dedup_ms` of [router];
 // the names for [ring], [record], [web] and [log] are formed the same way. A variable that matches no key is an error
 // in two cases: MAVLOOM_ is followed by a section's name, or the name resembles that of a key. Otherwise it only adds a
 // note.
 using Environment = std::vector<std::pair<std::string, std::string>>;
-[[nodiscard]] Environment environment_of(const char* const* envp);
+[[nodiscard]] Environment environment_of(const char* const* envp, std::string_view prefix = "MAVLOOM_");
 
 // A value that an option of the command line gives to a key.
 struct Override {

@@ -17,6 +17,7 @@
 
 #include "mavloom/config/config.hpp"
 #include "mavloom/config/document.hpp"
+#include "mavloom/hil/sensor_rates.hpp"
 #include "mavloom/sim/vehicle.hpp"
 #include "mavloom/simserve/simulator.hpp"
 
@@ -45,6 +46,8 @@ struct Scenario {
     config::WebConfig web{};
     std::vector<ScenarioVehicle> vehicles{};
     std::vector<SimEndpoint> endpoints{};
+    std::optional<endpoint::Endpoint> hil{};  // where the first vehicle's autopilot connects; empty: vehicles fly alone
+    hil::SensorRates hil_rates{};
 
     std::vector<config::Section> sections{};  // all of the above as text, for `mavloom check`
     std::vector<std::string> notes{};         // anything unusual that is not an error
@@ -52,6 +55,8 @@ struct Scenario {
     // The options of every vehicle, with its place and seed.
     [[nodiscard]] std::vector<ScenarioVehicle> each_vehicle() const;
     [[nodiscard]] std::string control_name() const;
+    // The endpoint of each vehicle's autopilot, in the order of `each_vehicle`: the ports follow each other.
+    [[nodiscard]] std::vector<endpoint::Endpoint> hil_endpoints() const;
 };
 
 using config::Override;
@@ -67,5 +72,11 @@ using config::Override;
 
 // Runs every check of a scenario that needs no socket: endpoints, ports, key files, parameters. Errors are as above.
 [[nodiscard]] SetupResult<void> check_scenario(const Scenario& scenario, const config::Document& document);
+
+// Completes a scenario with `hil` by PX4's own variables: PX4_HOME_LAT, PX4_HOME_LON, PX4_HOME_ALT and
+// PX4_SIM_SPEED_FACTOR, which count if the scenario does not set `home` and `speed`. Checks what `hil` cannot have.
+// Errors are `usage`, or `bad_input` for a variable. Without `hil` it does nothing.
+[[nodiscard]] SetupResult<void> complete_hil(Scenario& scenario, const config::Environment& px4);
+inline constexpr std::string_view px4_prefix = "PX4_";  // of these variables
 
 }  // namespace mavloom::simserve

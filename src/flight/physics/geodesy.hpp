@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Positions on the WGS 84 ellipsoid, and the local frame around an origin. Private to flight and sim.
+// Positions on the WGS 84 ellipsoid, and the local frame around an origin. Private to flight, sim and hil.
 //
 // The local frame is north, east, down in metres. Its horizontal plane is the azimuthal equidistant projection around
 // the origin (GeographicLib): a point's distance and bearing from the origin are those of the geodesic.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Attitudes. Private to flight and sim. A quaternion rotates from the body frame (forward, right, down) into north,
-// east, down. Euler angles are in radians in the order yaw, pitch, roll.
+// Attitudes. Private to flight, sim and hil. A quaternion rotates from the body frame (forward, right, down) into
+// north, east, down. Euler angles are in radians in the order yaw, pitch, roll.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -7,12 +7,6 @@ namespace mavloom::flight {
 
 namespace {
 
-// Steps between two samples.
-constexpr unsigned gps_period = 31;          // 8 Hz
-constexpr unsigned magnetometer_period = 5;  // 50 Hz
-constexpr unsigned barometer_period = 12;    // 20 Hz
-constexpr double gps_interval = gps_period * step_s;
-
 constexpr double accelerometer_sigma = 0.1;   // m/s^2
 constexpr double gyroscope_sigma = 0.01;      // rad/s
 constexpr double pressure_sigma = 0.01;       // hPa
@@ -27,13 +21,13 @@ constexpr double self_heating = 3;                                // K, of the b
 
 const Vector3 field_sigma{0.02, 0.02, 0.03};  // gauss
 
-std::array<SmoothWander, 3> wander(double north, double east, double down, double tau) {
-    return {SmoothWander(north, tau, step_s), SmoothWander(east, tau, step_s), SmoothWander(down, tau, step_s)};
+std::array<SmoothWander, 3> wander(const Vector3& sigma, double tau, double dt) {
+    return {SmoothWander(sigma.x(), tau, dt), SmoothWander(sigma.y(), tau, dt), SmoothWander(sigma.z(), tau, dt)};
 }
-std::array<GaussMarkov, 3> markov(double horizontal, double down, double tau) {
-    return {GaussMarkov(horizontal, tau, gps_interval), GaussMarkov(horizontal, tau, gps_interval),
-            GaussMarkov(down, tau, gps_interval)};
+std::array<GaussMarkov, 3> markov(double horizontal, double down, double tau, double dt) {
+    return {GaussMarkov(horizontal, tau, dt), GaussMarkov(horizontal, tau, dt), GaussMarkov(down, tau, dt)};
 }
+double gps_interval(const SensorTiming& timing) { return timing.gps * timing.step_s; }
 template <class Noise>
 Vector3 values(const std::array<Noise, 3>& noises) {
     return {noises[0].value(), noises[1].value(), noises[2].value()};
@@ -51,16 +45,17 @@ Quaternion small_turn(const Vector3& angles) {
 
 // Estimate: 3 cm, which with 3 s gives 1 cm/s; roll and pitch 0.15 degrees, yaw 0.3 degrees. GPS: the correlation times
 // and deviations of PX4's simulated receiver (position: 0.76 from sample to sample, velocity: 0.54).
-Sensors::Sensors(bool has_noise, std::uint64_t seed, const Vector3& magnetic_field)
+Sensors::Sensors(bool has_noise, std::uint64_t seed, const Vector3& magnetic_field, const SensorTiming& timing)
     : random_(seed),
       magnetic_field_(magnetic_field),
+      timing_(timing),
       has_noise_(has_noise),
-      position_wander_(wander(0.03, 0.03, 0.03, 3)),
-      attitude_wander_(wander(to_radians(0.15), to_radians(0.15), to_radians(0.3), 2)),
-      gps_position_(markov(0.025, 0.037, 0.45)),
-      gps_velocity_(markov(0.024, 0.029, 0.2)),
+      position_wander_(wander(Vector3::Constant(0.03), 3, timing.step_s)),
+      attitude_wander_(wander({to_radians(0.15), to_radians(0.15), to_radians(0.3)}, 2, timing.step_s)),
+      gps_position_(markov(0.025, 0.037, 0.45, gps_interval(timing))),
+      gps_velocity_(markov(0.024, 0.029, 0.2, gps_interval(timing))),
       gyroscope_bias_{RandomWalk(gyroscope_bias_rate), RandomWalk(gyroscope_bias_rate), RandomWalk(gyroscope_bias_rate)},
-      impact_(0.3, step_s) {}
+      impact_(0.3, timing.step_s) {}
 
 void Sensors::step(const Kinematics& truth, const Vector3& air_velocity, bool at_rest, double origin_altitude,
                    double air_density) {
@@ -69,10 +64,10 @@ void Sensors::step(const Kinematics& truth, const Vector3& air_velocity, bool at
     step_estimate(truth, share);
     step_imu(truth);
     step_vibration(at_rest);
-    if (steps_ % magnetometer_period == 0) step_magnetometer(truth.attitude);
-    if (steps_ % barometer_period == 0)
-        step_barometer(truth, air_velocity, origin_altitude - truth.position.z(), air_density);
-    if (steps_ % gps_period == 0) {
+    samples_ = {steps_ % timing_.magnetometer == 0, steps_ % timing_.barometer == 0, steps_ % timing_.gps == 0};
+    if (samples_.magnetometer) step_magnetometer(truth.attitude);
+    if (samples_.barometer) step_barometer(truth, air_velocity, origin_altitude - truth.position.z(), air_density);
+    if (samples_.gps) {
         step_gps(truth);
         step_bias();
     }
@@ -103,8 +98,8 @@ void Sensors::set_deceptions(const Deceptions& deceptions) {
 }
 
 void Sensors::step_deceptions() {
-    gps_drifted_ += deceptions_.gps_drift * step_s;
-    barometer_drifted_ += deceptions_.barometer_drift * step_s;
+    gps_drifted_ += deceptions_.gps_drift * timing_.step_s;
+    barometer_drifted_ += deceptions_.barometer_drift * timing_.step_s;
     horizontal_error_.step(gps_error());
     vertical_error_.step({0, 0, -barometer_error()});
     is_deceived_ = deceptions_.any() || horizontal_error_.any() || vertical_error_.any();
@@ -128,12 +123,12 @@ void Sensors::step_vibration(bool at_rest) {
     if (at_rest && !rested_) impact_.kick(touchdown_vibration);
     rested_ = at_rest;
     impact_.next();
-    vibration_ += ((at_rest ? resting_vibration : flying_vibration) + impact_.value() - vibration_) * step_s;
+    vibration_ += ((at_rest ? resting_vibration : flying_vibration) + impact_.value() - vibration_) * timing_.step_s;
 }
 
 void Sensors::step_bias() {
     if (!has_noise_) return;
-    for (RandomWalk& axis : gyroscope_bias_) axis.next(random_, gps_interval);
+    for (RandomWalk& axis : gyroscope_bias_) axis.next(random_, gps_interval(timing_));
 }
 
 void Sensors::step_magnetometer(const Quaternion& attitude) {
@@ -159,7 +154,7 @@ void Sensors::step_barometer(const Kinematics& truth, const Vector3& air_velocit
 // A blocked pitot tube passes less pressure, 30 % after a second.
 void Sensors::step_airspeed(double along, double air_density) {
     constexpr double least = 0.3, blocking_time = 1;  // s
-    constexpr double step = (1 - least) * barometer_period * step_s / blocking_time;
+    const double step = (1 - least) * timing_.barometer * timing_.step_s / blocking_time;
     open_pitot_ = failures_.airspeed == Failure::wrong ? std::max(open_pitot_ - step, least) : 1;
     if (is_frozen(failures_.airspeed)) return;
     imu_.differential_hpa = open_pitot_ * std::copysign(0.5 * air_density * along * along, along) / 100;

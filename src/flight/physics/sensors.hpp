@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The vehicle's measurements and estimates: its true motion with noise. Private to flight and sim; single owner;
+// The vehicle's measurements and estimates: its true motion with noise. Private to flight, sim and hil; single owner;
 // nothing allocates.
 //
 // All noise advances with the steps, never with messages, so the telemetry of one client does not depend on another.
@@ -31,17 +31,29 @@ struct ImuSample {
 };
 
 struct GpsFix {
-    Vector3 position = Vector3::Zero(), velocity = Vector3::Zero();  // local frame, as measured at 8 Hz
+    Vector3 position = Vector3::Zero(), velocity = Vector3::Zero();  // local frame, as measured last
     std::uint8_t fix_type = 0;                                       // GPS_FIX_TYPE
     std::uint8_t satellites = 0;
     double hdop = 0, vdop = 0;
     double horizontal_m = 0, vertical_m = 0, speed_m_s = 0;  // accuracies
 };
 
+// How long a step is, and how many steps lie between two samples.
+struct SensorTiming {
+    double step_s = flight::step_s;
+    unsigned magnetometer = 5;  // 50 Hz
+    unsigned barometer = 12;    // 20 Hz
+    unsigned gps = 31;          // 8 Hz
+};
+// The sensors that took a sample in the last step. All others show an older one.
+struct SensorSamples {
+    bool magnetometer = false, barometer = false, gps = false;
+};
+
 class Sensors {
 public:
     // `magnetic_field` in gauss; north, east, down. It does not change: vehicles do not fly far.
-    Sensors(bool has_noise, std::uint64_t seed, const Vector3& magnetic_field);
+    Sensors(bool has_noise, std::uint64_t seed, const Vector3& magnetic_field, const SensorTiming& timing = {});
 
     // Call it after each step of the plant, and once before the first. `origin_altitude` is the altitude (AMSL, m)
     // of the local origin.
@@ -64,6 +76,7 @@ public:
 
     [[nodiscard]] const Estimate& estimate() const noexcept { return estimate_; }
     [[nodiscard]] const ImuSample& imu() const noexcept { return imu_; }
+    [[nodiscard]] const SensorSamples& samples() const noexcept { return samples_; }
     [[nodiscard]] const GpsFix& gps() const noexcept { return gps_; }
     [[nodiscard]] bool has_position() const noexcept;
     // Estimated standard deviations for covariance and accuracy fields, m and m/s.
@@ -90,6 +103,8 @@ private:
 
     Random random_;
     Vector3 magnetic_field_;
+    SensorTiming timing_;
+    SensorSamples samples_;
     bool has_noise_, gps_acquired_ = false;
     Failures failures_;
     Deceptions deceptions_;

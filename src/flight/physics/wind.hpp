@@ -12,13 +12,13 @@ namespace mavloom::flight {
 
 class WindField {
 public:
-    explicit WindField(const Wind& options, std::uint64_t seed)
+    explicit WindField(const Wind& options, std::uint64_t seed, double dt = step_s)
         : random_(seed),
           steady_(options.speed_m_s * std::cos(to_radians(options.direction_deg)),
                   options.speed_m_s * std::sin(to_radians(options.direction_deg)), 0),
           velocity_(steady_),
-          gusts_{SmoothWander(options.gust_m_s, gust_time, step_s), SmoothWander(options.gust_m_s, gust_time, step_s),
-                 SmoothWander(options.gust_m_s / 3, gust_time, step_s)},
+          gusts_{SmoothWander(options.gust_m_s, gust_time, dt), SmoothWander(options.gust_m_s, gust_time, dt),
+                 SmoothWander(options.gust_m_s / 3, gust_time, dt)},
           has_gusts_(options.gust_m_s > 0) {}
 
     void step() {

@@ -41,7 +41,7 @@ void Multicopter::place(const Vector3& position, double heading) {
 void Multicopter::step(const Outputs& outputs, const Surroundings& around, double dt) {
     air_velocity_ = motion_.velocity - around.wind;
     spin(outputs, dt);
-    const Vector3 free = acceleration(around), rates = turned(moment(around.supply), dt);
+    const Vector3 free = acceleration(around), rates = turned(moment(around.supply), dt) + around.turn * dt;
     const double depth = motion_.position.z() - around.ground;
     const double push = depth < -leg_travel
                             ? 0
@@ -83,7 +83,7 @@ Vector3 Multicopter::acceleration(const Surroundings& around) const {
     const Vector3 lift = motion_.attitude * Vector3(0, 0, -total_ * around.supply);
     Vector3 force = lift - air_drag(around.air_density / sea_level_density);
     if (body_.rotor_drag > 0) force -= rotor_drag();
-    return force / body_.mass_kg + Vector3(0, 0, gravity);
+    return force / body_.mass_kg + Vector3(0, 0, gravity) + around.push;
 }
 
 Vector3 Multicopter::air_drag(double relative_density) const {

@@ -18,6 +18,7 @@ public:
 
     void step(const Outputs& outputs, const Surroundings& around, double dt) override;
     void place(const Vector3& position, double heading) override;
+    void set_mass(double kg) override { body_.mass_kg = kg; }
 
 private:
     void spin(const Outputs& outputs, double dt);
@@ -33,7 +34,7 @@ private:
     [[nodiscard]] Vector3 rates_after() const;
     void report(double supply);
 
-    const CopterBody body_;
+    CopterBody body_;
     const Vector3 inertia_;
     std::array<double, CopterBody::most_rotors> speeds_{}, thrusts_{};  // share of the full speed; N
     double total_ = 0;                                                  // N, of all rotors with a full battery

@@ -45,6 +45,8 @@ struct Surroundings {
     double ground = 0;               // `position.z` of the ground below
     double air_density = 1.225;      // kg/m^3
     double supply = 1;               // battery voltage relative to full; scales the thrust
+    // Pushes and turns a multicopter from outside: m/s^2 in the local frame, rad/s^2 in the body frame.
+    Vector3 push = Vector3::Zero(), turn = Vector3::Zero();
 };
 
 // The commands to motors and servos, by channel: 0 to 1 for motors, -1 to 1 for servos and motors that can reverse.
@@ -77,6 +79,8 @@ public:
     virtual void step(const Outputs& outputs, const Surroundings& around, double dt) = 0;
     // Puts the vehicle at rest, usually on the ground.
     virtual void place(const Vector3& position, double heading) = 0;
+    // The load of a multicopter changed. Its inertia stays.
+    virtual void set_mass(double /*kg*/) {}
     // The origin of the local frame moved: `by` is added to every position. The motion continues.
     void move_origin(const Vector3& by) { motion_.position += by; }
 

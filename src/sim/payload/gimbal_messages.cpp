@@ -2,6 +2,7 @@
 // What a gimbal reports. Yaw is from north while it is locked, and from the vehicle's nose while it follows.
 #include <cstring>
 
+#include "flight/wire_units.hpp"
 #include "mavloom/msg/enums/gimbal_device_cap_flags.hpp"
 #include "mavloom/msg/enums/gimbal_manager_cap_flags.hpp"
 #include "mavloom/msg/gimbal_device_attitude_status.hpp"
@@ -11,7 +12,6 @@
 #include "mavloom/msg/mount_orientation.hpp"
 #include "sim/payload/gimbal.hpp"
 #include "sim/telemetry/projections.hpp"
-#include "sim/telemetry/wire_units.hpp"
 
 namespace mavloom::sim {
 

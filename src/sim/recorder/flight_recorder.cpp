@@ -8,8 +8,8 @@
 #include <span>
 #include <utility>
 
+#include "flight/wire_units.hpp"
 #include "mavloom/msg/enums/gps_fix_type.hpp"
-#include "sim/telemetry/wire_units.hpp"
 
 namespace mavloom::sim {
 

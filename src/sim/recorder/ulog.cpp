@@ -4,10 +4,10 @@
 #include <array>
 
 #include "flight/physics/geodesy.hpp"
+#include "flight/wire_units.hpp"
 #include "mavloom/msg/enums/mav_type.hpp"
 #include "sim/metadata/event_catalog.hpp"
 #include "sim/recorder/format.hpp"
-#include "sim/telemetry/wire_units.hpp"
 
 namespace mavloom::sim {
 

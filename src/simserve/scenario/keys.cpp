@@ -13,6 +13,7 @@
 #include "mavloom/config/keys.hpp"
 #include "mavloom/endpoint/grammar.hpp"
 #include "simserve/scenario/body.hpp"
+#include "simserve/scenario/hil.hpp"
 #include "simserve/scenario/time_line.hpp"
 #include "simserve/scenario/values.hpp"
 
@@ -92,7 +93,7 @@ SetupResult<void> set_capacity(Scenario& scenario, Text text) {
     return put(endpoint::parse_ring_capacity(text), scenario.ring.capacity_bytes);
 }
 
-constexpr std::array<Key<Scenario>, 11> all_sim_keys{{
+constexpr std::array<Key<Scenario>, 13> all_sim_keys{{
     {"name", "", [](Scenario& s, Text t) { return set_name(t, "simulator", s.name); }},
     {"seed", "1", [](Scenario& s, Text t) { return put(parse_integer(t, 0, UINT64_MAX), s.seed); }},
     {"speed", "1", set_speed},
@@ -104,6 +105,9 @@ constexpr std::array<Key<Scenario>, 11> all_sim_keys{{
     {"ring", "", [](Scenario& s, Text t) { return set_name(t, "ring", s.ring.name); }},
     {"ring_capacity", "8MiB", set_capacity},
     {"metrics", "", set_metrics},
+    {"hil", "", [](Scenario& s, Text t) { return put(parse_hil(t), s.hil); }},
+    {"hil_sensors", "imu:250,mag:50,baro:50,gps:10,gps_delay:0,distance:0",
+     [](Scenario& s, Text t) { return put(parse_hil_sensors(t), s.hil_rates); }},
 }};
 
 constexpr std::array<Key<Scenario>, 3> all_web_keys{{

@@ -433,7 +433,7 @@ SetupResult<void> check_endpoints(const Scenario& scenario, const Document& docu
 }  // namespace
 
 SetupResult<void> check_scenario(const Scenario& scenario, const Document& document) {
-    if (scenario.speed == max_speed && !scenario.duration)
+    if (scenario.speed == max_speed && !scenario.duration && !scenario.hil)
         return setup_error(SetupCode::usage, "speed max needs the length of the flight: for, or --for 10m");
     if (auto good = check_endpoints(scenario, document); !good) return good;
     return check_parameters(scenario, document);

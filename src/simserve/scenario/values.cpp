@@ -96,6 +96,15 @@ SetupResult<sim::Wind> parse_wind(std::string_view text) {
     return sim::Wind{v[0], std::fmod(v[1] + 180, 360), v.size() > 2 ? v[2] : 0};
 }
 
+SetupResult<std::array<double, 3>> parse_three(std::string_view text, Range range) {
+    static constexpr std::array<std::string_view, 3> names{"first", "second", "third"};
+    const std::array ranges{range, range, range};
+    const auto values = parse_list(text, ranges, names);
+    if (!values) return tl::unexpected(values.error());
+    if (values->size() != 3) return usage(fmt::format("{} is not three numbers", in_quotes(text)));
+    return std::array{(*values)[0], (*values)[1], (*values)[2]};
+}
+
 SetupResult<std::vector<std::pair<std::string, double>>> parse_pairs(std::string_view text) {
     std::vector<std::pair<std::string, double>> pairs;
     const auto add = [&](std::string_view term) -> SetupResult<void> {

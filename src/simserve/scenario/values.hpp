@@ -2,6 +2,7 @@
 // Parses the values of scenario keys. Private to module simserve; pure functions. Errors are `usage`.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -28,6 +29,8 @@ struct Range {
 [[nodiscard]] SetupResult<sim::Wind> parse_wind(std::string_view text);
 // "capacity:5000,cells:4,minutes:20,start:100"; each part may be left out.
 [[nodiscard]] SetupResult<sim::BatteryOptions> parse_battery(std::string_view text);
+// "1,2,3": three numbers of the range.
+[[nodiscard]] SetupResult<std::array<double, 3>> parse_three(std::string_view text, Range range);
 // "NAME:VALUE,NAME:VALUE".
 [[nodiscard]] SetupResult<std::vector<std::pair<std::string, double>>> parse_pairs(std::string_view text);
 

@@ -62,6 +62,8 @@ def runnable(line):
         words += ["--ports", "free"]
     if words[0] == "shm":
         words = [f"docs-{os.getpid()}" if word == "px4" else word for word in words]
+    if "--hil" in words:
+        words[words.index("--hil") + 1] = f"px4=tcpin://127.0.0.1:{harness.free_port(harness.socket.SOCK_STREAM)}"
     if words[0] in ("route", "sim"):
         words = [f"docs-{os.getpid()}-{harness.free_port()}" if word == "px4" else word for word in words]
     if words[0] == "replay" and "--no-wait" not in words:

@@ -23,7 +23,7 @@ LIBRARIES = {
 PUBLIC_LIBRARIES = {"sockets"}
 
 # A module, and another whose private headers it may include.
-SHARED_PRIVATELY = {("sim", "flight"), ("router", "control"), ("simserve", "control")}
+SHARED_PRIVATELY = {("sim", "flight"), ("hil", "flight"), ("router", "control"), ("simserve", "control")}
 
 # Typed structs are generated into the build folder: they are part of module `message`.
 FOLDER_OF_MODULE = {"msg": "message"}

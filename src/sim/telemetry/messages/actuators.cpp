@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "flight/wire_units.hpp"
 #include "mavloom/msg/actuator_control_target.hpp"
 #include "mavloom/msg/actuator_output_status.hpp"
 #include "mavloom/msg/esc_info.hpp"
@@ -7,7 +8,6 @@
 #include "mavloom/msg/servo_output_raw.hpp"
 #include "sim/payload/servo_outputs.hpp"
 #include "sim/telemetry/projections.hpp"
-#include "sim/telemetry/wire_units.hpp"
 
 namespace mavloom::sim {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Messages that only ArduPilot sends. Source: MAVLink ardupilotmega.xml.
+#include "flight/wire_units.hpp"
 #include "mavloom/msg/ahrs.hpp"
 #include "mavloom/msg/ahrs2.hpp"
 #include "mavloom/msg/fence_status.hpp"
@@ -12,7 +13,6 @@
 #include "mavloom/msg/terrain_report.hpp"
 #include "mavloom/msg/wind.hpp"
 #include "sim/telemetry/projections.hpp"
-#include "sim/telemetry/wire_units.hpp"
 
 namespace mavloom::sim {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/msg/attitude.hpp"
 
+#include "flight/wire_units.hpp"
 #include "mavloom/msg/attitude_quaternion.hpp"
 #include "mavloom/msg/enums/mav_estimator_type.hpp"
 #include "mavloom/msg/enums/mav_frame.hpp"
 #include "mavloom/msg/hil_state_quaternion.hpp"
 #include "mavloom/msg/odometry.hpp"
 #include "sim/telemetry/projections.hpp"
-#include "sim/telemetry/wire_units.hpp"
 
 namespace mavloom::sim {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "flight/wire_units.hpp"
 #include "mavloom/msg/battery_status.hpp"
 #include "mavloom/msg/enums/mav_battery_charge_state.hpp"
 #include "mavloom/msg/enums/mav_battery_function.hpp"
 #include "mavloom/msg/enums/mav_battery_type.hpp"
 #include "sim/telemetry/projections.hpp"
-#include "sim/telemetry/wire_units.hpp"
 
 namespace mavloom::sim {
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "flight/wire_units.hpp"
 #include "mavloom/msg/ekf_status_report.hpp"
 #include "mavloom/msg/enums/estimator_sensor_fusion_source.hpp"
 #include "mavloom/msg/enums/estimator_status_flags.hpp"
@@ -6,7 +7,6 @@
 #include "mavloom/msg/estimator_status.hpp"
 #include "mavloom/msg/wind_cov.hpp"
 #include "sim/telemetry/projections.hpp"
-#include "sim/telemetry/wire_units.hpp"
 
 namespace mavloom::sim {
 

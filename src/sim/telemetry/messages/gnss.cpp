@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include "flight/wire_units.hpp"
 #include "mavloom/msg/enums/gps_fix_type.hpp"
 #include "mavloom/msg/gnss_integrity.hpp"
 #include "mavloom/msg/gps_raw_int.hpp"
 #include "sim/telemetry/projections.hpp"
-#include "sim/telemetry/wire_units.hpp"
 
 namespace mavloom::sim {
 

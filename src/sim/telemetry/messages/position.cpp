@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "flight/wire_units.hpp"
 #include "mavloom/msg/altitude.hpp"
 #include "mavloom/msg/global_position_int.hpp"
 #include "mavloom/msg/gps_global_origin.hpp"
@@ -6,7 +7,6 @@
 #include "mavloom/msg/local_position_ned.hpp"
 #include "mavloom/msg/vfr_hud.hpp"
 #include "sim/telemetry/projections.hpp"
-#include "sim/telemetry/wire_units.hpp"
 
 namespace mavloom::sim {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Source: MAVLink guide, "Open Drone ID". Values that a field leaves open are those of PX4 1.17.
+#include "flight/wire_units.hpp"
 #include "mavloom/msg/enums/mav_odid_hor_acc.hpp"
 #include "mavloom/msg/enums/mav_odid_speed_acc.hpp"
 #include "mavloom/msg/enums/mav_odid_status.hpp"
@@ -7,7 +8,6 @@
 #include "mavloom/msg/open_drone_id_location.hpp"
 #include "mavloom/msg/open_drone_id_system.hpp"
 #include "sim/telemetry/projections.hpp"
-#include "sim/telemetry/wire_units.hpp"
 
 namespace mavloom::sim {
 

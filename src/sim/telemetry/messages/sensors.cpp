@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "flight/physics/sensors.hpp"
 
+#include "flight/wire_units.hpp"
 #include "mavloom/msg/distance_sensor.hpp"
 #include "mavloom/msg/enums/highres_imu_updated_flags.hpp"
 #include "mavloom/msg/enums/mav_sensor_orientation.hpp"
@@ -12,7 +13,6 @@
 #include "mavloom/msg/scaled_pressure.hpp"
 #include "mavloom/msg/vibration.hpp"
 #include "sim/telemetry/projections.hpp"
-#include "sim/telemetry/wire_units.hpp"
 
 namespace mavloom::sim {
 

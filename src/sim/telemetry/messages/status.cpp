@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <bit>
 
+#include "flight/wire_units.hpp"
 #include "mavloom/msg/available_modes_monitor.hpp"
 #include "mavloom/msg/current_mode.hpp"
 #include "mavloom/msg/enums/hl_failure_flag.hpp"
@@ -13,7 +14,6 @@
 #include "mavloom/msg/mission_current.hpp"
 #include "mavloom/msg/sys_status.hpp"
 #include "sim/telemetry/projections.hpp"
-#include "sim/telemetry/wire_units.hpp"
 
 namespace mavloom::sim {
 

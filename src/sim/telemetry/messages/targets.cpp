@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "flight/wire_units.hpp"
 #include "mavloom/msg/attitude_target.hpp"
 #include "mavloom/msg/enums/mav_frame.hpp"
 #include "mavloom/msg/enums/position_target_typemask.hpp"
@@ -8,7 +9,6 @@
 #include "mavloom/msg/position_target_local_ned.hpp"
 #include "mavloom/msg/time_estimate_to_target.hpp"
 #include "sim/telemetry/projections.hpp"
-#include "sim/telemetry/wire_units.hpp"
 
 namespace mavloom::sim {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Converts values to the units of messages. Private to module sim. No value overflows: integers saturate, and NaN
-// becomes 0.
+// Converts values to the units of messages. Private to flight, sim and hil. No value overflows: integers saturate, and
+// NaN becomes 0.
 #pragma once
 
 #include <algorithm>
@@ -9,9 +9,9 @@
 #include <limits>
 
 #include "flight/physics/rotation.hpp"
-#include "mavloom/sim/flight.hpp"
+#include "mavloom/flight/options.hpp"
 
-namespace mavloom::sim {
+namespace mavloom::flight {
 
 // The nearest integer that the field can hold.
 template <class Int>
@@ -36,4 +36,4 @@ template <class Int>
 
 inline constexpr float float_nan = std::numeric_limits<float>::quiet_NaN();
 
-}  // namespace mavloom::sim
+}  // namespace mavloom::flight

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "hil/sensed_vehicle.hpp"
+
+#include <algorithm>
+
+#include "flight/physics/atmosphere.hpp"
+#include "flight/physics/magnetic_field.hpp"
+
+namespace mavloom::hil {
+
+namespace {
+
+constexpr std::uint64_t wind_stream = 0x77696e64;  // the wind draws from numbers of its own
+
+flight::GeoPoint place_of(const flight::Home& home) {
+    return {home.latitude_deg, home.longitude_deg, home.altitude_m};
+}
+
+unsigned steps_between(double imu_hz, double hz) { return static_cast<unsigned>(std::max(1.0, imu_hz / hz + 0.5)); }
+
+flight::SensorTiming timing_of(const SensorRates& rates) {
+    return {.step_s = std::chrono::duration<double>(rates.step()).count(),
+            .magnetometer = steps_between(rates.imu_hz, rates.magnetometer_hz),
+            .barometer = steps_between(rates.imu_hz, rates.barometer_hz),
+            .gps = steps_between(rates.imu_hz, rates.gps_hz)};
+}
+
+}  // namespace
+
+SensedVehicle::SensedVehicle(const flight::VehicleOptions& options, const SensorRates& rates)
+    : options_(options),
+      step_s_(timing_of(rates).step_s),
+      air_density_(flight::density_at(options.home.altitude_m)),
+      plant_(flight::make_plant(options.kind, options.body)),
+      sensors_(options.has_noise, options.seed, flight::magnetic_field(place_of(options.home)), timing_of(rates)),
+      wind_(options.wind, options.seed ^ wind_stream, step_s_),
+      frame_(place_of(options.home)) {
+    around_.air_density = air_density_;
+    sensors_.acquire_gps(true);
+    place_at_start();
+}
+
+void SensedVehicle::place_at_start() {
+    plant_->place(Vector3::Zero(), flight::to_radians(options_.home.heading_deg));
+    push_left_ = 0;
+}
+
+void SensedVehicle::step(const flight::Outputs& outputs) {
+    wind_.step();
+    around_.wind = wind_.velocity();
+    if (push_left_ <= 0) around_.push = around_.turn = Vector3::Zero();
+    push_left_ -= step_s_;
+    plant_->step(outputs, around_, step_s_);
+    sense();
+}
+
+// A resting vehicle does not move, and its motors do not shake it.
+void SensedVehicle::sense() {
+    const bool at_rest = plant_->touches_ground() && truth().velocity.squaredNorm() < 1e-4 && plant_->thrust() < 0.2;
+    sensors_.step(truth(), plant_->air_velocity(), at_rest, frame_.origin().altitude, air_density_);
+}
+
+void SensedVehicle::push(const Vector3& velocity, const Vector3& rates) {
+    around_.push = velocity / push_time;
+    around_.turn = rates / push_time;
+    push_left_ = push_time;
+}
+
+void SensedVehicle::set_wind(const flight::Wind& wind) {
+    wind_ = flight::WindField(wind, options_.seed ^ wind_stream, step_s_);
+}
+
+}  // namespace mavloom::hil

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// The requests of `mavloom ctl` to a simulator for autopilots outside.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "control/fault_request.hpp"
+#include "control/json_request.hpp"
+#include "mavloom/link/snapshot.hpp"
+#include "mavloom/simserve/hil_simulator.hpp"
+#include "simserve/request_values.hpp"
+#include "simserve/scenario/values.hpp"
+
+namespace mavloom::simserve {
+
+namespace {
+
+using control::failed;
+using control::Json;
+using control::Report;
+using control::text_at;
+using Pairs = SetupResult<std::vector<hil::Pair*>>;
+
+Pairs pairs_of(HilSimulator& simulator, const Json& request) {
+    const auto system = number_at(request, "system");
+    if (!system) return tl::unexpected(system.error());
+    if (!*system) return simulator.pairs({});
+    const double id = **system;
+    if (!(id >= 1 && id <= 255)) return setup_error(SetupCode::usage, fmt::format("there is no vehicle {}", id));
+    auto pairs = simulator.pairs(SystemId{static_cast<std::uint8_t>(id)});
+    if (pairs.empty()) return setup_error(SetupCode::usage, fmt::format("there is no vehicle {}", id));
+    return pairs;
+}
+
+// Calls `use` with each of the request's pairs, and reports the state of all.
+template <class Use>
+Report for_each_pair(HilSimulator& simulator, const Json& request, Use&& use) {
+    const auto pairs = pairs_of(simulator, request);
+    if (!pairs) return failed(pairs.error().text);
+    for (hil::Pair* const pair : *pairs) use(*pair);
+    return report_hil(simulator);
+}
+
+Report pause_flights(HilSimulator& simulator, const Json& request) {
+    return for_each_pair(simulator, request, [](hil::Pair& pair) { pair.pause(mono_now()); });
+}
+
+Report resume_flights(HilSimulator& simulator, const Json& request) {
+    return for_each_pair(simulator, request, [](hil::Pair& pair) { pair.resume(mono_now()); });
+}
+
+Report step_flights(HilSimulator& simulator, const Json& request) {
+    constexpr double most_s = 10;
+    const auto time = number_at(request, "seconds").value_or(std::nullopt);
+    if (!time || !(*time > 0 && *time <= most_s))
+        return failed(fmt::format("step needs a time of the flight, up to {} s", most_s));
+    const auto pairs = pairs_of(simulator, request);
+    if (!pairs) return failed(pairs.error().text);
+    for (const hil::Pair* const pair : *pairs)
+        if (!pair->lock_step().is_paused()) return failed("the flight clock runs; pause it first");
+    const auto length = std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(*time));
+    return for_each_pair(simulator, request, [length](hil::Pair& pair) { pair.allow(length); });
+}
+
+Report reset_vehicles(HilSimulator& simulator, const Json& request) {
+    return for_each_pair(simulator, request, [](hil::Pair& pair) { pair.reset(); });
+}
+
+Report push_vehicles(HilSimulator& simulator, const Json& request) {
+    const auto by = parse_three(text_at(request, "push"), {-100, 100});
+    if (!by) return failed(fmt::format("push takes NORTH,EAST,DOWN in m/s, as in 3,0,0: {}", by.error().text));
+    const auto& [north, east, down] = *by;
+    const hil::Pair::Push push{.north_m_s = north, .east_m_s = east, .down_m_s = down};
+    return for_each_pair(simulator, request, [&](hil::Pair& pair) { pair.push(push); });
+}
+
+Report turn_vehicles(HilSimulator& simulator, const Json& request) {
+    const auto by = parse_three(text_at(request, "turn"), {-2000, 2000});
+    if (!by) return failed(fmt::format("turn takes ROLL,PITCH,YAW in degrees/s, as in 0,0,90: {}", by.error().text));
+    const auto& [roll, pitch, yaw] = *by;
+    const hil::Pair::Push push{.roll_deg_s = roll, .pitch_deg_s = pitch, .yaw_deg_s = yaw};
+    return for_each_pair(simulator, request, [&](hil::Pair& pair) { pair.push(push); });
+}
+
+Report blow(HilSimulator& simulator, const Json& request) {
+    const auto wind = parse_wind(text_at(request, "wind"));
+    if (!wind) return failed(fmt::format("wind: {}", wind.error().text));
+    return for_each_pair(simulator, request, [&](hil::Pair& pair) { pair.set_wind(*wind); });
+}
+
+Report load(HilSimulator& simulator, const Json& request) {
+    constexpr double least_kg = 0.05, most_kg = 500;
+    const auto mass = number_at(request, "kg").value_or(std::nullopt);
+    if (!mass || !(*mass >= least_kg && *mass <= most_kg))
+        return failed(fmt::format("mass takes kilograms, {} to {}", least_kg, most_kg));
+    return for_each_pair(simulator, request, [&](hil::Pair& pair) { pair.set_mass(*mass); });
+}
+
+Report fault_port(HilSimulator& simulator, const Json& request) {
+    return control::set_faults(simulator.links(), request, [&](const std::string& text) {
+        simulator.notify(config::LogLevel::info, text);
+    });
+}
+
+Report report_ports(HilSimulator& simulator, const Json&) {
+    return control::succeeded([s = link::snapshot_of(simulator.links())](std::string& text) {
+        for (const auto& link : s.links) control::append_link(text, s, link);
+    });
+}
+
+using HilCommand = control::Command<HilSimulator>;
+
+constexpr std::array hil_commands{
+    HilCommand{"state", [](HilSimulator& s, const Json&) { return report_hil(s); }},
+    HilCommand{"stats", [](HilSimulator& s, const Json&) { return report_hil(s); }},
+    HilCommand{"links", report_ports},
+    HilCommand{"pause", pause_flights},
+    HilCommand{"resume", resume_flights},
+    HilCommand{"step", step_flights},
+    HilCommand{"reset", reset_vehicles},
+    HilCommand{"push", push_vehicles},
+    HilCommand{"turn", turn_vehicles},
+    HilCommand{"wind", blow},
+    HilCommand{"mass", load},
+    HilCommand{"fault", fault_port},
+};
+
+}  // namespace
+
+Report HilSimulator::answer(std::string_view request) { return control::answer_request(*this, request, hil_commands); }
+
+}  // namespace mavloom::simserve

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/simserve/hil_simulator.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "mavloom/control/post_box.hpp"
+#include "mavloom/fault/faults.hpp"
+#include "simserve/hil/hil_port.hpp"
+
+namespace mavloom::simserve {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+HilOptions dated(HilOptions options) {
+    if (options.utc_at_start == WallTime{}) options.utc_at_start = wall_now();
+    return options;
+}
+
+}  // namespace
+
+HilSimulator::HilSimulator(const HilOptions& options, Notice notice, std::unique_ptr<link::Links> links)
+    : options_(dated(options)),
+      notice_(std::move(notice)),
+      links_(std::move(links)),
+      posted_(std::make_unique<control::PostBox>()) {}
+
+HilSimulator::~HilSimulator() = default;
+
+SetupResult<std::unique_ptr<HilSimulator>> HilSimulator::create(const dialect::Dialect& dialect,
+                                                                const HilOptions& options, Notice notice) {
+    auto links = link::Links::create(dialect);
+    if (!links) return tl::unexpected(std::move(links.error()));
+    return std::unique_ptr<HilSimulator>(new HilSimulator(options, std::move(notice), std::move(*links)));
+}
+
+SetupResult<void> HilSimulator::add(const flight::VehicleOptions& vehicle, const endpoint::Endpoint& endpoint) {
+    endpoint::Endpoint given = endpoint;
+    given.options.low_latency = true;
+    const bool is_board = given.row().form == endpoint::Form::device;
+    auto port = std::make_unique<HilPort>(hil::PairOptions{.vehicle = vehicle,
+                                                           .rates = options_.rates,
+                                                           .speed = options_.speed,
+                                                           .has_own_clock = is_board,
+                                                           .utc_at_start = options_.utc_at_start},
+                                          *links_, notice_);
+    const auto added = fault::add(*links_, given);
+    if (!added) return tl::unexpected(added.error());
+    port->opened(*added, given.label());
+    ports_.push_back(std::move(port));
+    return {};
+}
+
+// ---- turns ----------------------------------------------------------------------------------------------------------
+
+void HilSimulator::turn(MonoTime deadline) {
+    deadline = std::min({deadline, next_due(), maintain_due_});
+    links_->turn(*this, posted_->empty() ? deadline : MonoTime{});
+    for (const auto& port : ports_) port->settle();
+    if (!posted_->empty()) posted_->run_one();
+    const MonoTime now = mono_now();
+    step_due(now);
+    if (now >= maintain_due_) maintain(now);
+}
+
+MonoTime HilSimulator::next_due() const noexcept {
+    MonoTime due = MonoTime::max();
+    for (const auto& port : ports_) due = std::min(due, port->due());
+    return due;
+}
+
+void HilSimulator::step_due(MonoTime now) {
+    for (const auto& port : ports_)
+        if (port->due() <= now) port->step(now);
+}
+
+void HilSimulator::maintain(MonoTime now) {
+    maintain_due_ = now + 1s;
+    for (const auto& port : ports_) port->maintain(now);
+}
+
+HilPort* HilSimulator::port_of(link::EndpointId endpoint) noexcept {
+    const auto port = std::ranges::find(ports_, endpoint, [](const auto& each) { return each->endpoint(); });
+    return port == ports_.end() ? nullptr : port->get();
+}
+
+void HilSimulator::on_frame(const link::RxFrame& rx) {
+    if (HilPort* const port = port_of(rx.endpoint)) port->receive(rx.link, rx.frame);
+}
+
+void HilSimulator::on_link_up(LinkId link, link::EndpointId endpoint, std::string_view name) {
+    if (HilPort* const port = port_of(endpoint)) port->on_link_up(link, name);
+}
+
+void HilSimulator::on_link_down(LinkId link, link::EndpointId endpoint, std::string_view why) {
+    if (HilPort* const port = port_of(endpoint)) port->on_link_down(link, why);
+}
+
+void HilSimulator::on_notice(link::EndpointId, std::string_view text) { notice_(config::LogLevel::info, text); }
+
+void HilSimulator::post(std::function<void()> work) {
+    posted_->post(std::move(work));
+    wake();
+}
+
+void HilSimulator::drop_posted() { posted_->drop(); }
+
+// ---- reports --------------------------------------------------------------------------------------------------------
+
+std::vector<HilReport> HilSimulator::reports() const {
+    std::vector<HilReport> all;
+    all.reserve(ports_.size());
+    for (const auto& port : ports_) all.push_back(port->report());
+    return all;
+}
+
+std::vector<hil::Pair*> HilSimulator::pairs(std::optional<SystemId> system) {
+    std::vector<hil::Pair*> found;
+    found.reserve(ports_.size());
+    for (const auto& port : ports_)
+        if (!system || port->pair().status().system == *system) found.push_back(&port->pair());
+    return found;
+}
+
+}  // namespace mavloom::simserve

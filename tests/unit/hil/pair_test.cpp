@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: MIT
+// A vehicle with an autopilot of the test: the messages that PX4 reads, and what becomes of its answers.
+#include "mavloom/hil/pair.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "mavloom/msg/command_long.hpp"
+#include "mavloom/msg/distance_sensor.hpp"
+#include "mavloom/msg/heartbeat.hpp"
+#include "mavloom/msg/hil_actuator_controls.hpp"
+#include "mavloom/msg/hil_gps.hpp"
+#include "mavloom/msg/hil_sensor.hpp"
+#include "mavloom/msg/hil_state_quaternion.hpp"
+#include "mavloom/wire/frame_writer.hpp"
+
+namespace mavloom::hil {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::Each;
+using ::testing::Ge;
+using ::testing::SizeIs;
+
+// PX4 ignores a group of fields without all of its bits.
+constexpr std::uint32_t inertial = 0x3f, magnetic = 0x1c0, pressure = 0x1a00;
+constexpr Source px4{SystemId{7}, ComponentId{1}};
+
+// What arrived in one step.
+struct Step {
+    std::vector<std::uint32_t> ids;
+    std::vector<Source> sources;
+    std::vector<std::uint8_t> sequence;
+    msg::HilSensor sensor{};
+    std::optional<msg::HilGps> gps{};
+    std::optional<msg::HilStateQuaternion> truth{};
+    std::optional<msg::DistanceSensor> distance{};
+};
+
+class PairTest : public ::testing::Test {
+protected:
+    explicit PairTest() {
+        options.speed = any_speed;
+        options.utc_at_start = WallTime{std::chrono::seconds{1'790'000'000}};
+    }
+    void begin() {
+        pair.emplace(options);
+        pair->begin(now);
+    }
+    template <class Message>
+    Heard send(const Message& message) {
+        const wire::MessageInfo info{.id = Message::id,
+                                     .crc_extra = Message::crc_extra,
+                                     .min_length = Message::min_length,
+                                     .max_length = Message::max_length};
+        std::array<std::uint8_t, Message::max_length> payload;
+        (void)message.encode(payload);
+        wire::FrameBuffer buffer;
+        return pair->receive(wire::write_frame(buffer, {.source = px4}, info, payload), now);
+    }
+    Step step() {
+        now = std::max(now, pair->due());
+        Step step;
+        for (const auto& frame : pair->step(now)) {
+            step.ids.push_back(frame.id().value);
+            step.sources.push_back(frame.source());
+            step.sequence.push_back(frame.sequence());
+            if (frame.id() == msg::HilSensor::id) step.sensor = msg::HilSensor::decode(frame.payload());
+            if (frame.id() == msg::HilGps::id) step.gps = msg::HilGps::decode(frame.payload());
+            if (frame.id() == msg::HilStateQuaternion::id)
+                step.truth = msg::HilStateQuaternion::decode(frame.payload());
+            if (frame.id() == msg::DistanceSensor::id) step.distance = msg::DistanceSensor::decode(frame.payload());
+        }
+        return step;
+    }
+    Heard answer(const Step& step, std::array<float, 16> controls = {}) {
+        return send(
+            msg::HilActuatorControls{.time_usec = step.sensor.time_usec, .controls = controls, .mode = 129, .flags = 1});
+    }
+    // Steps that are all answered with the same controls.
+    std::vector<Step> fly(int steps, std::array<float, 16> controls = {}) {
+        std::vector<Step> all;
+        all.reserve(static_cast<std::size_t>(steps));
+        for (int i = 0; i < steps; ++i) {
+            all.push_back(step());
+            answer(all.back(), controls);
+        }
+        return all;
+    }
+    static std::array<float, 16> four(float value) { return {value, value, value, value}; }
+
+    PairOptions options;
+    MonoTime now{1h};
+    std::optional<Pair> pair;
+};
+
+TEST_F(PairTest, EachGroupOfSensorsHasItsOwnRateAndAllBits) {
+    begin();
+    std::map<std::uint32_t, int> updated;
+    int fixes = 0;
+    for (const Step& step : fly(2500)) {  // 10 s
+        ASSERT_EQ(step.ids.front(), msg::HilSensor::id.value);
+        ASSERT_EQ(step.sensor.id_, 0);
+        for (const auto group : {inertial, magnetic, pressure}) {
+            const auto bits = step.sensor.fields_updated & group;
+            ASSERT_TRUE(bits == 0 || bits == group);
+            updated[group] += bits == group ? 1 : 0;
+        }
+        ASSERT_EQ(step.sensor.fields_updated & 0x8000'0000, 0u);
+        fixes += step.gps ? 1 : 0;
+    }
+    EXPECT_EQ(updated[inertial], 2500);
+    EXPECT_EQ(updated[magnetic], 500);
+    EXPECT_EQ(updated[pressure], 500);
+    EXPECT_EQ(fixes, 100);
+}
+
+TEST_F(PairTest, TimesAreThoseOfTheStepsAndGpsHasUtc) {
+    begin();
+    const auto steps = fly(250);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        EXPECT_EQ(steps[i].sensor.time_usec, 4000 * (i + 1));
+        if (steps[i].gps) {
+            EXPECT_EQ(steps[i].gps->time_usec, 1'790'000'000'000'000 + 4000 * (i + 1));
+        }
+    }
+}
+
+TEST_F(PairTest, SpeaksAsComponent51OfTheAutopilotsSystem) {
+    options.vehicle.system = SystemId{3};
+    begin();
+    EXPECT_THAT(step().sources, Each(Source{SystemId{3}, ComponentId{51}}));
+    EXPECT_EQ(pair->status().system, SystemId{3});
+    send(msg::Heartbeat{.autopilot = 12, .mavlink_version = 3});
+    EXPECT_THAT(step().sources, Each(Source{SystemId{7}, ComponentId{51}}));
+    EXPECT_EQ(pair->status().system, SystemId{7});
+}
+
+TEST_F(PairTest, NumbersItsFramesInSequence) {
+    begin();
+    std::uint8_t next = 0;
+    for (const Step& step : fly(300))
+        for (const auto sequence : step.sequence) ASSERT_EQ(sequence, next++);
+}
+
+TEST_F(PairTest, AtRestItMeasuresGravityTheFieldAndThePressureOfItsPlace) {
+    options.vehicle.has_noise = false;
+    begin();
+    const Step last = fly(250).back();
+    EXPECT_FLOAT_EQ(last.sensor.zacc, -9.80665f);
+    EXPECT_FLOAT_EQ(last.sensor.xacc, 0);
+    EXPECT_FLOAT_EQ(last.sensor.xgyro, 0);
+    EXPECT_NEAR(last.sensor.abs_pressure, 955.82, 0.01);  // ISO 2533 at 489.4 m
+    // PX4's model of 2020: 0.482 gauss, inclination 63.16 degrees.
+    const double field = std::hypot(last.sensor.xmag, last.sensor.ymag, last.sensor.zmag);
+    EXPECT_NEAR(field, 0.482, 0.01);
+    EXPECT_NEAR(std::asin(last.sensor.zmag / field) * 180 / 3.14159265, 63.16, 1);
+}
+
+// PX4 declares a sensor stale after 100 equal values.
+TEST_F(PairTest, WithoutNoiseCompassAndBarometerStillChange) {
+    options.vehicle.has_noise = false;
+    begin();
+    std::vector<float> field, pressures;
+    for (const Step& step : fly(500)) {
+        if ((step.sensor.fields_updated & magnetic) != 0) field.push_back(step.sensor.xmag);
+        if ((step.sensor.fields_updated & pressure) != 0) pressures.push_back(step.sensor.abs_pressure);
+    }
+    ASSERT_THAT(field, SizeIs(Ge(90u)));
+    for (std::size_t i = 1; i < field.size(); ++i) EXPECT_NE(field[i], field[i - 1]);
+    for (std::size_t i = 1; i < pressures.size(); ++i) EXPECT_NE(pressures[i], pressures[i - 1]);
+}
+
+TEST_F(PairTest, SendsTheTrueStateAsOftenAsAsked) {
+    begin();
+    for (const Step& step : fly(50)) EXPECT_FALSE(step.truth);
+    const auto ask = [&](float message, float interval) {
+        return send(msg::CommandLong{.command = 511, .param1 = message, .param2 = interval});
+    };
+    EXPECT_EQ(ask(115, 5000), Heard::request);
+    EXPECT_EQ(ask(30, 1000), Heard::nothing);
+    int count = 0;
+    for (const Step& step : fly(2500)) count += step.truth ? 1 : 0;
+    EXPECT_NEAR(count, 2000, 1);
+    ask(115, std::numeric_limits<float>::quiet_NaN());
+    for (const Step& step : fly(50)) EXPECT_FALSE(step.truth);
+    ask(115, 1);
+    for (const Step& step : fly(50)) EXPECT_TRUE(step.truth);
+    ask(115, -1);
+    for (const Step& step : fly(50)) EXPECT_FALSE(step.truth);
+}
+
+TEST_F(PairTest, MotorsLiftItAndAllSensorsAgree) {
+    options.vehicle.has_noise = false;
+    options.rates.distance_hz = 250;
+    begin();
+    send(msg::CommandLong{.command = 511, .param1 = 115, .param2 = 1});
+    fly(250);
+    const Step last = fly(500, four(0.6f)).back();
+
+    const double height = -489.4 + last.truth->alt / 1e3;
+    EXPECT_GT(height, 1);
+    EXPECT_NEAR(pair->status().height_m, height, 0.01);
+    EXPECT_NEAR(last.distance->current_distance, height * 100, 1);
+    EXPECT_EQ(last.distance->orientation, 25);
+    EXPECT_NEAR(last.sensor.pressure_alt, last.truth->alt / 1e3, 0.2);
+    EXPECT_LT(last.truth->vz, -100);
+    EXPECT_LT(last.sensor.zacc, -9.80665f);
+    EXPECT_TRUE(pair->status().is_armed);
+}
+
+TEST_F(PairTest, ALateGpsReportsWhereTheVehicleWas) {
+    options.rates.gps_delay = 200ms;
+    options.vehicle.has_noise = false;
+    begin();
+    std::vector<Step> steps = fly(250);
+    std::uint64_t fixes = 0;
+    for (const Step& step : steps) {
+        if (!step.gps) continue;
+        ++fixes;
+        EXPECT_EQ(step.gps->time_usec + 200'000, 1'790'000'000'000'000 + step.sensor.time_usec);
+    }
+    EXPECT_EQ(fixes, 8u);
+}
+
+TEST_F(PairTest, ControlsBeyondTheirRangeAreClampedAndCounted) {
+    begin();
+    fly(250, four(0.5f));
+    EXPECT_EQ(pair->counters().clamped, 0u);
+    fly(1, {1.5f, 0.5f, 0.5f, 0.5f});
+    fly(1, {0.5f, -0.1f, 0.5f, 0.5f});
+    EXPECT_EQ(pair->counters().clamped, 2u);
+    fly(1, {0, 0, 0, 0, 9, -9});  // nothing is connected there
+    EXPECT_EQ(pair->counters().clamped, 2u);
+}
+
+TEST_F(PairTest, ControlsThatAreNoNumbersStopTheMotorAndAreCounted) {
+    begin();
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
+    for (const Step& step : fly(250, {nan, infinite, -infinite, nan})) {
+        ASSERT_TRUE(std::isfinite(step.sensor.xacc));
+        ASSERT_TRUE(std::isfinite(step.sensor.zgyro));
+    }
+    EXPECT_EQ(pair->counters().not_numbers, 250u);
+    EXPECT_TRUE(pair->status().touches_ground);
+}
+
+TEST_F(PairTest, ANewAutopilotFindsTheVehicleAtItsStartAndALaterClock) {
+    begin();
+    fly(750, four(0.7f));
+    ASSERT_GT(pair->status().height_m, 1);
+    const auto before = pair->status().time;
+    pair->end();
+    EXPECT_EQ(pair->status().state, State::waiting);
+    EXPECT_EQ(pair->status().height_m, 0);
+    EXPECT_FALSE(pair->status().is_armed);
+
+    pair->begin(now);
+    const auto steps = fly(250);
+    EXPECT_GT(steps.front().sensor.time_usec, wire_time(before));
+    EXPECT_NEAR(pair->status().height_m, 0, 0.01);
+    EXPECT_EQ(pair->counters().restarts, 1u);
+}
+
+TEST_F(PairTest, TellsAutopilotsFromStrangers) {
+    begin();
+    EXPECT_EQ(send(msg::Heartbeat{.type = 6, .autopilot = 8}), Heard::stranger);
+    EXPECT_EQ(send(msg::Heartbeat{.type = 2, .autopilot = 3}), Heard::stranger);
+    EXPECT_FALSE(pair->is_known());
+    EXPECT_EQ(send(msg::Heartbeat{.type = 0, .autopilot = 12}), Heard::autopilot);
+    EXPECT_TRUE(pair->is_known());
+}
+
+TEST_F(PairTest, ABoardGetsHeartbeatsAndNoTrueState) {
+    options.has_own_clock = true;
+    options.speed = 1;
+    begin();
+    send(msg::CommandLong{.command = 511, .param1 = 115, .param2 = 1});
+    int heartbeats = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const Step now_sent = step();
+        heartbeats += static_cast<int>(std::ranges::count(now_sent.ids, msg::Heartbeat::id.value));
+        EXPECT_FALSE(now_sent.truth);
+    }
+    EXPECT_EQ(heartbeats, 5);  // within 4 s, the first one at once
+}
+
+TEST_F(PairTest, APushMovesItByItsVelocity) {
+    options.vehicle.has_noise = false;
+    options.vehicle.body.drag = 0;
+    begin();
+    fly(500, four(0.6f));
+    const double before = pair->status().north_m_s;
+    pair->push({.north_m_s = 3});
+    fly(125, four(0.5f));
+    EXPECT_NEAR(pair->status().north_m_s - before, 3, 0.05);
+    fly(125, four(0.5f));
+    EXPECT_NEAR(pair->status().north_m_s - before, 3, 0.05);
+    pair->push({.yaw_deg_s = 90});
+    const Step last = fly(126, four(0.5f)).back();
+    EXPECT_NEAR(last.sensor.zgyro * 180 / 3.14159265, 90, 1);
+}
+
+TEST_F(PairTest, MoreMassNeedsMoreThrust) {
+    options.vehicle.has_noise = false;
+    begin();
+    fly(250, four(0.6f));
+    pair->set_mass(3);
+    fly(500, four(0.6f));
+    EXPECT_NEAR(pair->status().height_m, 0, 0.05);
+}
+
+TEST_F(PairTest, AStepOfOneMillisecondFliesTheSame) {
+    options.vehicle.has_noise = false;
+    begin();
+    fly(250);
+    fly(500, four(0.6f));
+    const double height = pair->status().height_m;
+    options.rates.imu_hz = 1000;
+    begin();
+    fly(1000);
+    const auto steps = fly(2000, four(0.6f));
+    EXPECT_EQ(steps[1].sensor.time_usec - steps[0].sensor.time_usec, 1000u);
+    EXPECT_NEAR(pair->status().height_m, height, 0.02 * height);
+}
+
+}  // namespace
+}  // namespace mavloom::hil
