@@ -156,7 +156,7 @@ void Pair::allow(Nanoseconds time) noexcept {
 void Pair::reset() { parts_->stop(); }
 void Pair::push(const Push& push) {
     parts_->vehicle().push({push.north_m_s, push.east_m_s, push.down_m_s},
-                         Vector3(push.roll_deg_s, push.pitch_deg_s, push.yaw_deg_s) * flight::to_radians(1));
+                           Vector3(push.roll_deg_s, push.pitch_deg_s, push.yaw_deg_s) * flight::to_radians(1));
 }
 void Pair::set_wind(const flight::Wind& wind) { parts_->vehicle().set_wind(wind); }
 void Pair::set_mass(double kg) { parts_->vehicle().set_mass(kg); }

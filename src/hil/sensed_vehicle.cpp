@@ -12,9 +12,7 @@ namespace {
 
 constexpr std::uint64_t wind_stream = 0x77696e64;  // the wind draws from numbers of its own
 
-flight::GeoPoint place_of(const flight::Home& home) {
-    return {home.latitude_deg, home.longitude_deg, home.altitude_m};
-}
+flight::GeoPoint place_of(const flight::Home& home) { return {home.latitude_deg, home.longitude_deg, home.altitude_m}; }
 
 unsigned steps_between(double imu_hz, double hz) { return static_cast<unsigned>(std::max(1.0, imu_hz / hz + 0.5)); }
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "flight/wire_units.hpp"
-#include "mavloom/msg/distance_sensor.hpp"
 #include "mavloom/hil/lock_step.hpp"
+#include "mavloom/msg/distance_sensor.hpp"
 #include "mavloom/msg/enums/hil_sensor_updated_flags.hpp"
 #include "mavloom/msg/enums/mav_autopilot.hpp"
 #include "mavloom/msg/enums/mav_sensor_orientation.hpp"

@@ -60,7 +60,8 @@ constexpr KeyOption key_options[] = {
     {"--seed", "sim", "seed", "seed of the random numbers; the same seed gives the same flight (default: 1)", "N"},
     {"--speed", "sim", "speed",
      "speed of the flight clock, 0.1 to 100 (default: 1), or max: as fast as the vehicles can fly", "X"},
-    {"--for", "sim", "for", "end after this time: 10s, 2m; with --speed max, of the flight, but with --hil always of real time", "TIME"},
+    {"--for", "sim", "for",
+     "end after this time: 10s, 2m; with --speed max, of the flight, but with --hil always of real time", "TIME"},
     {"--hil", "sim", "hil",
      "let PX4 fly the vehicles, in lock-step (docs/guide/hil.md): it connects to port 4560, the PX4 of a second "
      "vehicle "

@@ -46,16 +46,15 @@ void serve(const Scenario& scenario, HilSimulator& simulator) {
 
 }  // namespace
 
-Exit simulate_for_px4(const Common& common, const Scenario& scenario, const dialect::Dialect& dialect,
-                      bool prints_json) {
+Exit simulate_for_px4(const Common& common, const Scenario& scenario, const dialect::Dialect& dialect, bool prints_json) {
     const auto simulator = make_hil_simulator(common, scenario, dialect);
     if (!simulator) return fail(simulator.error());
     const Signals signals([](void* s) noexcept { static_cast<HilSimulator*>(s)->wake(); }, simulator->get());
     control::ControlOptions control_options;
     control_options.metrics = scenario.metrics;
     control_options.on_notice = [&](std::string_view text) { (*simulator)->notify(config::LogLevel::warning, text); };
-    const auto control =
-        open_control(common, **simulator, std::move(control_options), scenario.name, scenario.control_name());
+    const auto control = open_control(common, **simulator, std::move(control_options), scenario.name,
+                                      scenario.control_name());
     if (!control) return fail(control.error());
     log_ports(common, (*simulator)->links().endpoints());
     serve(scenario, **simulator);

@@ -247,14 +247,14 @@ Run declare_ctl(Arguments command, const Common&) {
     command.add_option(
         "name", "NAME", options->name,
         "the --name of a router or simulator; by default router, or sim. Without it, lists those that run");
-    command.add_option(
-        "action", "ACTION", options->action,
-        "links, stats, add URL, remove NAME, fault NAME FAULTS (or off); of a router: routes; of a "
-        "simulator: streams, state, arm, disarm, takeoff ALTITUDE, land, rtl, goto LATITUDE LONGITUDE "
-        "[ALTITUDE], mode NAME, param NAME "
-        "[VALUE], fail PART FAULT, wait STATE (ready, armed, disarmed, landed, alt METRES), pause, resume, step TIME; with "
-        "sim --hil: state, pause, resume, step TIME, reset, push N,E,D, turn ROLL,PITCH,YAW, wind "
-        "SPEED,DIR[,GUST], mass KG");
+    command.add_option("action", "ACTION", options->action,
+                       "links, stats, add URL, remove NAME, fault NAME FAULTS (or off); of a router: routes; of a "
+                       "simulator: streams, state, arm, disarm, takeoff ALTITUDE, land, rtl, goto LATITUDE LONGITUDE "
+                       "[ALTITUDE], mode NAME, param NAME "
+                       "[VALUE], fail PART FAULT, wait STATE (ready, armed, disarmed, landed, alt METRES), pause, "
+                       "resume, step TIME; with "
+                       "sim --hil: state, pause, resume, step TIME, reset, push N,E,D, turn ROLL,PITCH,YAW, wind "
+                       "SPEED,DIR[,GUST], mass KG");
     command.add_option("argument", "ARGUMENT", options->arguments, "what the action takes");
     command.add_option("--system", "N", options->system, "the vehicle with this system id (default: all)");
     command.add_option("--for", "TIME", options->limit, "`wait` ends after this time, with status 1")

@@ -21,9 +21,9 @@ namespace mavloom::hil {
 struct PairOptions {
     flight::VehicleOptions vehicle{};  // a quad
     SensorRates rates{};
-    double speed = 1;             // as for LockStep
-    bool has_own_clock = false;   // a flight controller with SYS_HITL: flies in real time, and gets no true state
-    WallTime utc_at_start{};      // at flight time 0
+    double speed = 1;            // as for LockStep
+    bool has_own_clock = false;  // a flight controller with SYS_HITL: flies in real time, and gets no true state
+    WallTime utc_at_start{};     // at flight time 0
 };
 
 // What a frame was for the pair.

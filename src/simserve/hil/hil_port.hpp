@@ -60,7 +60,7 @@ private:
         std::string name;
     };
     std::optional<LinkId> link_{};
-    std::vector<Newcomer> newcomers_;  // of this turn
+    std::vector<Newcomer> newcomers_;         // of this turn
     hil::State state_ = hil::State::waiting;  // as last reported
     bool is_stranger_ = false, said_silent_ = false, said_lost_ = false, said_back_ = false;
     MonoTime came_{}, blocked_until_{};

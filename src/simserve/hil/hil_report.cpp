@@ -101,7 +101,8 @@ std::string text_of(const std::vector<HilReport>& reports) {
                        microseconds_in(report.answer_median), microseconds_in(report.answer_p99),
                        microseconds_in(report.own_median), microseconds_in(report.own_p99));
         for (const auto& count : counts_of_pair(report))
-            if (count.value != 0 && count.name != "steps" && count.name != "answered") fmt::format_to(out, "  {}: {}\n", count.help, count.value);
+            if (count.value != 0 && count.name != "steps" && count.name != "answered")
+                fmt::format_to(out, "  {}: {}\n", count.help, count.value);
     }
     return text;
 }

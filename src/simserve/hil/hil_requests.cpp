@@ -98,9 +98,8 @@ Report load(HilSimulator& simulator, const Json& request) {
 }
 
 Report fault_port(HilSimulator& simulator, const Json& request) {
-    return control::set_faults(simulator.links(), request, [&](const std::string& text) {
-        simulator.notify(config::LogLevel::info, text);
-    });
+    return control::set_faults(simulator.links(), request,
+                               [&](const std::string& text) { simulator.notify(config::LogLevel::info, text); });
 }
 
 Report report_ports(HilSimulator& simulator, const Json&) {

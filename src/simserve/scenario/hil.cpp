@@ -28,9 +28,10 @@ tl::unexpected<SetupError> hil_error(std::string text) { return setup_error(Setu
 SetupResult<Endpoint> checked(Endpoint endpoint) {
     constexpr std::array schemes{Scheme::tcpin, Scheme::serial, Scheme::udpout};
     if (std::ranges::find(schemes, endpoint.scheme) == schemes.end())
-        return hil_error(fmt::format("{}: PX4 connects to a tcpin:// address, or waits at a udpout:// address; flight "
-                                     "controllers are at a serial:// device",
-                                     endpoint.label()));
+        return hil_error(
+            fmt::format("{}: PX4 connects to a tcpin:// address, or waits at a udpout:// address; flight "
+                        "controllers are at a serial:// device",
+                        endpoint.label()));
     if (auto good = endpoint::check_link(endpoint, endpoint::RoutingOptions::refused); !good)
         return tl::unexpected(std::move(good.error()));
     return endpoint;
@@ -74,9 +75,10 @@ constexpr std::array rate_keys{
 SetupResult<void> check_rates(const hil::SensorRates& rates) {
     const double period_us = 1e6 / rates.imu_hz;
     if (period_us != std::floor(period_us))
-        return hil_error(fmt::format("imu: {} samples a second are not whole microseconds apart; 100, 125, 200, 250, "
-                                     "400, 500 and 1000 are",
-                                     rates.imu_hz));
+        return hil_error(
+            fmt::format("imu: {} samples a second are not whole microseconds apart; 100, 125, 200, 250, "
+                        "400, 500 and 1000 are",
+                        rates.imu_hz));
     for (const double hz : {rates.magnetometer_hz, rates.barometer_hz, rates.gps_hz, rates.distance_hz})
         if (hz > rates.imu_hz)
             return hil_error(fmt::format("no sensor has more samples than imu:{}, which are the steps", rates.imu_hz));
@@ -173,7 +175,8 @@ SetupResult<void> check_board(const Scenario& scenario, std::size_t vehicles) {
     const auto label = scenario.hil->label();
     if (scenario.speed != 1)
         return hil_error(fmt::format("{}: a flight controller flies in real time, so speed is 1", label));
-    if (vehicles > 1) return hil_error(fmt::format("{}: a flight controller flies one vehicle, not {}", label, vehicles));
+    if (vehicles > 1)
+        return hil_error(fmt::format("{}: a flight controller flies one vehicle, not {}", label, vehicles));
     return {};
 }
 
@@ -181,7 +184,8 @@ SetupResult<void> check_company(const Scenario& scenario) {
     if (!scenario.endpoints.empty())
         return hil_error(fmt::format("{}: with hil, PX4 sends the telemetry; the simulator has no other endpoint",
                                      scenario.endpoints.front().endpoint.label()));
-    if (!scenario.orders.empty()) return hil_error("with hil, PX4 takes the orders; the scenario can have no [[event]]");
+    if (!scenario.orders.empty())
+        return hil_error("with hil, PX4 takes the orders; the scenario can have no [[event]]");
     if (!scenario.recording.empty()) return hil_error("with hil, PX4 sends the telemetry; record cannot have it");
     if (!scenario.ring.name.empty()) return hil_error("with hil, PX4 sends the telemetry; ring cannot have it");
     return {};

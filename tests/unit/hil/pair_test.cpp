@@ -79,8 +79,8 @@ protected:
         return step;
     }
     Heard answer(const Step& step, std::array<float, 16> controls = {}) {
-        return send(
-            msg::HilActuatorControls{.time_usec = step.sensor.time_usec, .controls = controls, .mode = 129, .flags = 1});
+        return send(msg::HilActuatorControls{
+            .time_usec = step.sensor.time_usec, .controls = controls, .mode = 129, .flags = 1});
     }
     // Steps that are all answered with the same controls.
     std::vector<Step> fly(int steps, std::array<float, 16> controls = {}) {
