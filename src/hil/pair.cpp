@@ -24,7 +24,7 @@ constexpr ComponentId simulator_component{51};  // as in jMAVSim
 
 bool is_in_range(double value, bool is_motor) noexcept { return value <= 1 && value >= (is_motor ? 0 : -1); }
 
-// Of a message that says how often another one is wanted; 0: never.
+// Of a request for a message; 0: never.
 Nanoseconds interval_of(const msg::CommandLong& command) noexcept {
     constexpr float longest = 1e9f;  // us
     if (!(command.param2 > 0)) return {};
@@ -33,8 +33,8 @@ Nanoseconds interval_of(const msg::CommandLong& command) noexcept {
 
 Heard kind_of(const msg::Heartbeat& heartbeat) noexcept {
     if (heartbeat.autopilot == msg::MAV_AUTOPILOT_PX4) return Heard::autopilot;
-    const bool says_nothing = heartbeat.autopilot == msg::MAV_AUTOPILOT_GENERIC && heartbeat.type != msg::MAV_TYPE_GCS;
-    return says_nothing ? Heard::autopilot : Heard::stranger;
+    const bool names_none = heartbeat.autopilot == msg::MAV_AUTOPILOT_GENERIC && heartbeat.type != msg::MAV_TYPE_GCS;
+    return names_none ? Heard::autopilot : Heard::stranger;
 }
 
 }  // namespace

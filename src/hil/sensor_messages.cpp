@@ -135,7 +135,7 @@ void SensorMessages::add_fix(const SensedVehicle& vehicle, const Fix& fix) {
                     .satellites_visible = gps.satellites});
 }
 
-// The accelerations are in mm/s^2, as PX4 reads them. The definition of the message says mG.
+// The accelerations are in mm/s^2, as PX4 reads them. By the definition of the message they are in mG.
 void SensorMessages::add_truth(const SensedVehicle& vehicle, FlightTime now) {
     const flight::Kinematics& truth = vehicle.truth();
     const flight::GeoPoint place = vehicle.geo(truth.position);

@@ -3,8 +3,8 @@
 // each answer means.
 //
 // The times of the steps are the autopilot's clock, so no time is ever repeated, and none goes back, even if the
-// autopilot is started again. An autopilot that is booting does not answer: steps then come in real time. From its first
-// answer on, each step waits for the answer to the one before, but for no longer than `answer_limit`. After
+// autopilot is started again. An autopilot that is booting does not answer: steps then come in real time. From its
+// first answer on, each step waits for the answer to the one before, but for no longer than `answer_limit`. After
 // `most_in_row` steps without an answer they come in real time again.
 //
 // Plain values; reads no clock. Single owner; nothing allocates.
@@ -39,7 +39,7 @@ inline constexpr std::string_view state_names[] = {"waiting", "booting", "lock-s
     return static_cast<std::uint64_t>(time / std::chrono::microseconds{1});
 }
 
-// What the time of an answer says.
+// The step that an answer belongs to, by its time.
 enum class Answer : std::uint8_t {
     in_time,   // to the last step
     late,      // to an earlier step
@@ -72,7 +72,7 @@ public:
     [[nodiscard]] MonoTime due() const noexcept;
     // Begins the next step and returns its time. Call it only when the step is due.
     FlightTime take(MonoTime now) noexcept;
-    // The autopilot answered the step of this time. `knows_lock_step`: it says so itself.
+    // The autopilot answered the step of this time. `knows_lock_step`: its flags state so.
     Answer answer(std::uint64_t time_us, bool knows_lock_step, MonoTime now) noexcept;
 
     // Neither does anything twice.

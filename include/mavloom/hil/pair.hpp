@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A simulated vehicle and the autopilot that flies it: sensors out, motor commands in, one step at a time. The autopilot
-// is PX4, or what speaks like its module simulator_mavlink. docs/guide/hil.md describes what users see.
+// A simulated vehicle and the autopilot that flies it: sensors out, motor commands in, one step at a time. The
+// autopilot is PX4, or what speaks like its module simulator_mavlink. docs/guide/hil.md describes what users see.
 //
 // It opens nothing and reads no clock: its owner passes frames and times, and sends the frames that `step` returns.
 // Pairs are independent of each other. Single owner; after construction nothing allocates.
@@ -26,11 +26,11 @@ struct PairOptions {
     WallTime utc_at_start{};     // at flight time 0
 };
 
-// What a frame was for the pair.
+// How the pair understood a frame.
 enum class Heard : std::uint8_t {
     nothing,    // not for the simulator
     request,    // how often it wants the true state
-    autopilot,  // HEARTBEAT of PX4 or of something that does not say what it is
+    autopilot,  // HEARTBEAT of PX4 or of something that names no autopilot
     stranger,   // HEARTBEAT of another autopilot or of a ground station
     controls,   // HIL_ACTUATOR_CONTROLS
 };
@@ -62,7 +62,7 @@ public:
 
     // An autopilot came. Call `end` first if there was one before.
     void begin(MonoTime now);
-    // The autopilot went: the vehicle stands where it started. The clock goes on from here with the next autopilot.
+    // The autopilot went: the vehicle stands where it started. The clock continues from here with the next autopilot.
     void end();
 
     Heard receive(const wire::FrameView& frame, MonoTime now);
@@ -72,9 +72,9 @@ public:
 
     void pause(MonoTime now) noexcept;
     void resume(MonoTime now) noexcept;
-    // While it is paused, the flight goes on for this time, rounded up to whole steps.
+    // While it is paused, the flight continues for this time, rounded up to whole steps.
     void allow(Nanoseconds time) noexcept;
-    // The vehicle stands where it started. The flight goes on.
+    // The vehicle stands where it started. The flight continues.
     void reset();
     // Within half a second, the velocity and the rates of turn change by so much.
     struct Push {

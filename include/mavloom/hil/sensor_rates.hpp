@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How often a simulated vehicle's sensors take samples, for an autopilot outside. A plain value; nothing here checks it.
+// How often a simulated vehicle's sensors take samples, for an autopilot outside. A plain value; nothing here checks
+// it.
 #pragma once
 
 #include <cstdint>

@@ -31,7 +31,7 @@ using ::testing::SizeIs;
 constexpr std::uint32_t inertial = 0x3f, magnetic = 0x1c0, pressure = 0x1a00;
 constexpr Source px4{SystemId{7}, ComponentId{1}};
 
-// What arrived in one step.
+// The messages of one step.
 struct Step {
     std::vector<std::uint32_t> ids;
     std::vector<Source> sources;
@@ -267,7 +267,7 @@ TEST_F(PairTest, ANewAutopilotFindsTheVehicleAtItsStartAndALaterClock) {
     EXPECT_EQ(pair->counters().restarts, 1u);
 }
 
-TEST_F(PairTest, TellsAutopilotsFromStrangers) {
+TEST_F(PairTest, KnowsAutopilotsFromStrangers) {
     begin();
     EXPECT_EQ(send(msg::Heartbeat{.type = 6, .autopilot = 8}), Heard::stranger);
     EXPECT_EQ(send(msg::Heartbeat{.type = 2, .autopilot = 3}), Heard::stranger);
