@@ -13,8 +13,8 @@
 
 namespace mavloom::link::detail {
 
-// For udpin and tcpin. `Listener` is the class of the endpoint; its `open(addresses)` binds the addresses. A look-up
-// that takes longer than a second continues in the background.
+// For schemes that listen. `Listener` is the class of the endpoint; its `open(addresses)` binds the addresses. A
+// look-up that takes longer than a second continues in the background.
 template <class Listener>
 Opened open_listening(Opening opening) {
     constexpr std::chrono::seconds look_up_limit{1};
@@ -27,7 +27,7 @@ Opened open_listening(Opening opening) {
     return opened;
 }
 
-// For udpout, udpbcast and tcpout. `Destination` is the class of the endpoint. Its `begin(answer, required)` starts to
+// For schemes that call. `Destination` is the class of the endpoint. Its `begin(answer, required)` starts to
 // send to the addresses of the look-up. If the host is not reached, it returns the error, or tries again later if not
 // `required`. Other errors, such as a port in use, are always returned. A look-up that takes longer than 250 ms
 // continues in the background, unless `required`.

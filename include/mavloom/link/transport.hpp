@@ -30,7 +30,7 @@
 
 namespace mavloom::link {
 
-// A connection of a transport. The transport numbers them; a number is never used again.
+// A connection of a transport. The transport numbers them from 1 on; a number is never used again.
 using PeerNumber = std::uint64_t;
 
 struct NewPeer {
@@ -111,7 +111,8 @@ public:
     virtual ~Transport() = default;  // closes everything
 
     // Listens on these addresses, or makes one attempt to call one of them. An attempt that began ends with
-    // Mailbox::join or Mailbox::fail; one that could not begin returns the error. Links calls `open` again later.
+    // Mailbox::join or Mailbox::fail; one that could not begin returns the error. Links calls `open` again later,
+    // also after a connection that it made has left or was closed.
     [[nodiscard]] virtual SetupResult<void> open(const std::vector<net::Address>& addresses) = 0;
     // The port that it listens on; 0: none.
     [[nodiscard]] virtual std::uint16_t local_port() const { return 0; }

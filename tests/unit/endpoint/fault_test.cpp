@@ -22,8 +22,9 @@ Faults faults(std::string_view text) {
 std::string error_of(std::string_view text) {
     const auto parsed = parse_faults(text);
     EXPECT_FALSE(parsed) << text;
-    if (!parsed) EXPECT_EQ(parsed.error().code, SetupCode::usage);
-    return parsed ? "" : parsed.error().text;
+    if (parsed) return "";
+    EXPECT_EQ(parsed.error().code, SetupCode::usage);
+    return parsed.error().text;
 }
 
 TEST(Faults, HaveTheValuesThatWereTyped) {
