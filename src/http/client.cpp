@@ -134,7 +134,8 @@ struct ClientState : std::enable_shared_from_this<ClientState> {
     void read_answer() {
         asio::async_read_until(socket, asio::dynamic_buffer(answer, longest_answer), "\r\n\r\n",
                                [self = shared_from_this()](error_code error, std::size_t size) {
-                                   if (error) self->fail_handshake(text_of(error));
+                                   if (error == asio::error::not_found) self->fail_handshake("the answer is too long");
+                                   else if (error) self->fail_handshake(text_of(error));
                                    else self->take_answer(size);
                                });
     }

@@ -188,6 +188,7 @@ TEST_F(WebSocketClient, ChecksTheAnswer) {
     EXPECT_EQ(why("Upgrade: h2c\r\n" + connection), "the server changes to another protocol");
     EXPECT_EQ(why(upgrade + connection + "Sec-WebSocket-Extensions: permessage-deflate\r\n"),
               "the server chose an extension that was not offered");
+    EXPECT_EQ(why(upgrade + connection + "X: " + std::string(9000, 'x') + "\r\n"), "the answer is too long");
     connect({.addresses = {listener.local()}});
     answer(listener, upgrade + connection);
     EXPECT_TRUE(near.eventually_has([&] { return near.session != nullptr; }));
