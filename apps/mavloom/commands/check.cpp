@@ -84,8 +84,11 @@ Exit check_router(const Common& common, const CheckOptions& options, const confi
 }
 
 Exit check_scenario(const Common& common, const CheckOptions& options, const config::Document& document) {
-    const auto scenario = simserve::read_scenario(document, config::environment_of(environ), {});
+    auto scenario = simserve::read_scenario(document, config::environment_of(environ), {});
     if (!scenario) return fail(Exit::bad_input, scenario.error().text);
+    const auto px4 = config::environment_of(environ, simserve::px4_prefix);
+    if (const auto good = simserve::complete_hil(*scenario, document, px4); !good)
+        return fail(Exit::bad_input, good.error().text);
     if (const auto checked = simserve::check_scenario(*scenario, document); !checked) return fail(checked.error());
     for (const auto& note : scenario->notes) print_notice(common, note);
     return print(options, scenario->sections);

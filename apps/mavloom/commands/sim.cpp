@@ -143,7 +143,8 @@ SetupResult<Scenario> make_scenario(const SimOptions& options) {
         return tl::unexpected(std::move(added.error()));
     if (auto added = add_endpoints(options.listen, "--listen", true, *scenario); !added)
         return tl::unexpected(std::move(added.error()));
-    if (auto good = simserve::complete_hil(*scenario, config::environment_of(environ, simserve::px4_prefix)); !good)
+    if (auto good = simserve::complete_hil(*scenario, document, config::environment_of(environ, simserve::px4_prefix));
+        !good)
         return tl::unexpected(std::move(good.error()));
     if (!scenario->hil && scenario->endpoints.empty() && scenario->ring.name.empty() && scenario->recording.empty())
         scenario->endpoints.push_back({*endpoint::parse_endpoint(usual_destination)});

@@ -56,6 +56,13 @@ bool holds_for_all(const std::vector<std::string>& lines, const Condition& condi
     });
 }
 
+bool is_flown_by_px4(const std::vector<std::string>& lines) {
+    return std::ranges::any_of(lines, [](const std::string& line) {
+        const auto object = Json::parse(line, nullptr, false);
+        return object.is_object() && object.value("kind", "") == "hil";
+    });
+}
+
 }  // namespace
 
 SetupResult<std::vector<std::string>> wait_for_state(const std::vector<std::string>& words, Nanoseconds limit,
@@ -64,6 +71,10 @@ SetupResult<std::vector<std::string>> wait_for_state(const std::vector<std::stri
     if (!condition) return tl::unexpected(condition.error());
     for (const auto end = mono_now() + limit;;) {
         auto lines = ask();
+        if (lines && words.front() == "ready" && is_flown_by_px4(*lines))
+            return setup_error(SetupCode::usage,
+                               "PX4 flies the vehicles, and only PX4 knows when they are ready; "
+                               "armed, disarmed, landed and alt can be waited for");
         if (!lines || holds_for_all(*lines, *condition)) return lines;
         if (mono_now() >= end)
             return setup_error(SetupCode::unreachable,

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -99,8 +100,8 @@ private:
     MonoTime created_ = mono_now(), maintain_due_{};
 };
 
-// Reports of the simulator, as those of report.hpp: "hil" lines.
-[[nodiscard]] control::Report report_hil(HilSimulator& simulator);
+// Reports of the simulator, as those of report.hpp: a "hil" line for each vehicle, or for those with this system id.
+[[nodiscard]] control::Report report_hil(HilSimulator& simulator, std::optional<SystemId> system);
 // The report at the end of a run: JSON lines, or a text for people.
 [[nodiscard]] std::string json_of(const std::vector<HilReport>& reports);
 [[nodiscard]] std::string text_of(const std::vector<HilReport>& reports);

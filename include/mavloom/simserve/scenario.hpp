@@ -74,9 +74,10 @@ using config::Override;
 [[nodiscard]] SetupResult<void> check_scenario(const Scenario& scenario, const config::Document& document);
 
 // Completes a scenario with `hil` by PX4's own variables: PX4_HOME_LAT, PX4_HOME_LON, PX4_HOME_ALT and
-// PX4_SIM_SPEED_FACTOR, which count if the scenario does not set `home` and `speed`. Checks what `hil` cannot have.
-// Errors are `usage`, or `bad_input` for a variable. Without `hil` it does nothing.
-[[nodiscard]] SetupResult<void> complete_hil(Scenario& scenario, const config::Environment& px4);
+// PX4_SIM_SPEED_FACTOR, which count if the scenario does not set `home` and `speed`. Refuses what a scenario with `hil`
+// cannot have, and without `hil` what is for it only. Errors are as those of read_scenario.
+[[nodiscard]] SetupResult<void> complete_hil(Scenario& scenario, const config::Document& document,
+                                             const config::Environment& px4);
 inline constexpr std::string_view px4_prefix = "PX4_";  // of these variables
 
 }  // namespace mavloom::simserve

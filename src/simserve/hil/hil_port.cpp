@@ -50,7 +50,7 @@ void HilPort::begin(LinkId link, std::string_view name) {
     link_ = link;
     peer_ = name;
     came_ = mono_now();
-    is_stranger_ = said_silent_ = said_lost_ = said_back_ = false;
+    is_stranger_ = said_silent_ = said_lost_ = said_back_ = said_double_ = false;
     pair_.begin(came_);
     say(LogLevel::info, fmt::format("{} is there", peer_));
     note_state();
@@ -117,17 +117,18 @@ void HilPort::step(MonoTime now) {
 
 // ---- what users see -------------------------------------------------------------------------------------------------
 
-void HilPort::say(LogLevel level, std::string_view text) const {
-    notice_(level, fmt::format("vehicle {}: {}", pair_.status().system.value, text));
+void HilPort::say(LogLevel level, std::string_view text) {
+    if (lines_.spend()) notice_(level, fmt::format("{}: {}", label_, text));
 }
 
 void HilPort::note_state() {
     const State before = std::exchange(state_, pair_.lock_step().state());
-    if (before == State::booting && state_ == State::lock_step) say(LogLevel::info, "lock-step");
+    const auto vehicle = fmt::format("vehicle {} is flown", pair_.status().system.value);
+    if (before == State::booting && state_ == State::lock_step) say(LogLevel::info, vehicle + " in lock-step");
     if (before == State::booting && state_ == State::real_time)
-        say(LogLevel::info, is_board_ ? "flies in real time"
-                                      : "flies in real time: the autopilot keeps a clock of its own, as a PX4 that was "
-                                        "built without lock-step");
+        say(LogLevel::info, vehicle + (is_board_ ? " in real time"
+                                                 : " in real time: the autopilot keeps a clock of its own, as a PX4 "
+                                                   "that was built without lock-step"));
     if (state_ == State::lost && !std::exchange(said_lost_, true))
         say(LogLevel::warning,
             fmt::format("no answer to {} steps in a row, so steps come in real time until there is one. An autopilot "
@@ -139,10 +140,21 @@ void HilPort::note_state() {
 }
 
 void HilPort::maintain(MonoTime now) {
+    if (const auto suppressed = lines_.refill(); suppressed != 0)
+        notice_(LogLevel::warning, fmt::format("{}: {}", label_, counted(suppressed, "more event")));
     if (!link_ || pair_.is_known() || is_board_ || said_silent_ || now < came_ + silence_limit) return;
     said_silent_ = true;
     say(LogLevel::warning, fmt::format("{} has sent {} for {:.0f} s, so it is no PX4. Another one may take its place",
                                        peer_, what_it_sent(), std::chrono::duration<double>(silence_limit).count()));
+}
+
+void HilPort::note_double(const HilPort& other) {
+    const SystemId system = pair_.status().system;
+    if (!pair_.is_known() || !other.pair_.is_known() || other.pair_.status().system != system) return;
+    if (std::exchange(said_double_, true)) return;
+    say(LogLevel::warning, fmt::format("the autopilots here and at {} both have system id {}, so ground stations take "
+                                       "them for one; start each PX4 with a number of its own (-i)",
+                                       other.label_, system.value));
 }
 
 std::string HilPort::what_it_sent() const {

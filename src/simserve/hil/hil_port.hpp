@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "mavloom/base/line_budget.hpp"
 #include "mavloom/hil/pair.hpp"
 #include "mavloom/link/links.hpp"
 #include "mavloom/simserve/hil_simulator.hpp"
@@ -38,13 +39,15 @@ public:
     void maintain(MonoTime now);
 
     [[nodiscard]] hil::Pair& pair() noexcept { return pair_; }
+    // Warns once about an autopilot at another port that has the same system id.
+    void note_double(const HilPort& other);
     [[nodiscard]] HilReport report() const;
 
 private:
     void begin(LinkId link, std::string_view name);
     void end();
     void note_state();
-    void say(config::LogLevel level, std::string_view text) const;
+    void say(config::LogLevel level, std::string_view text);
     void refuse_newcomers();
     [[nodiscard]] bool may_be_replaced() const;
     [[nodiscard]] std::string what_it_sent() const;
@@ -62,8 +65,9 @@ private:
     std::optional<LinkId> link_{};
     std::vector<Newcomer> newcomers_;         // of this turn
     hil::State state_ = hil::State::waiting;  // as last reported
-    bool is_stranger_ = false, said_silent_ = false, said_lost_ = false, said_back_ = false;
+    bool is_stranger_ = false, said_silent_ = false, said_lost_ = false, said_back_ = false, said_double_ = false;
     MonoTime came_{}, blocked_until_{};
+    LineBudget lines_;
     hil::StepTimes own_times_;
 };
 

@@ -47,7 +47,7 @@ void append_pair(std::string& text, const HilReport& report) {
                  {"peer", report.peer},
                  {"flight_s", to_decimals(seconds(s.time), 1e3)},
                  {"armed", s.is_armed},
-                 {"on_ground", s.touches_ground},
+                 {"landed_state", s.touches_ground ? "on_ground" : "in_air"},
                  {"lat", to_decimals(s.latitude_deg, 1e7)},
                  {"lon", to_decimals(s.longitude_deg, 1e7)},
                  {"alt_m", to_decimals(s.altitude_m, 1e3)},
@@ -76,8 +76,10 @@ std::string metrics_of(const std::vector<HilReport>& reports) {
 
 }  // namespace
 
-control::Report report_hil(HilSimulator& simulator) {
-    return control::succeeded([reports = simulator.reports()](std::string& text) { text += json_of(reports); });
+control::Report report_hil(HilSimulator& simulator, std::optional<SystemId> system) {
+    auto reports = simulator.reports();
+    if (system) std::erase_if(reports, [&](const HilReport& report) { return report.status.system != *system; });
+    return control::succeeded([reports = std::move(reports)](std::string& text) { text += json_of(reports); });
 }
 
 control::Report HilSimulator::metrics() {

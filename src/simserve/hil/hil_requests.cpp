@@ -39,7 +39,8 @@ Report for_each_pair(HilSimulator& simulator, const Json& request, Use&& use) {
     const auto pairs = pairs_of(simulator, request);
     if (!pairs) return failed(pairs.error().text);
     for (hil::Pair* const pair : *pairs) use(*pair);
-    return report_hil(simulator);
+    const auto system = number_at(request, "system").value_or(std::nullopt);
+    return report_hil(simulator, system ? std::optional(SystemId{static_cast<std::uint8_t>(*system)}) : std::nullopt);
 }
 
 Report pause_flights(HilSimulator& simulator, const Json& request) {
@@ -108,11 +109,19 @@ Report report_ports(HilSimulator& simulator, const Json&) {
     });
 }
 
+Report report_flights(HilSimulator& simulator, const Json& request) {
+    return for_each_pair(simulator, request, [](const hil::Pair&) {});
+}
+
+Report refer_to_px4(HilSimulator&, const Json&) {
+    return failed("PX4 flies this vehicle and takes orders over its own links, such as UDP port 14550");
+}
+
 using HilCommand = control::Command<HilSimulator>;
 
 constexpr std::array hil_commands{
-    HilCommand{"state", [](HilSimulator& s, const Json&) { return report_hil(s); }},
-    HilCommand{"stats", [](HilSimulator& s, const Json&) { return report_hil(s); }},
+    HilCommand{"state", report_flights},
+    HilCommand{"stats", report_flights},
     HilCommand{"links", report_ports},
     HilCommand{"pause", pause_flights},
     HilCommand{"resume", resume_flights},
@@ -123,6 +132,14 @@ constexpr std::array hil_commands{
     HilCommand{"wind", blow},
     HilCommand{"mass", load},
     HilCommand{"fault", fault_port},
+    HilCommand{"arm", refer_to_px4},
+    HilCommand{"disarm", refer_to_px4},
+    HilCommand{"takeoff", refer_to_px4},
+    HilCommand{"goto", refer_to_px4},
+    HilCommand{"mode", refer_to_px4},
+    HilCommand{"param", refer_to_px4},
+    HilCommand{"fail", refer_to_px4},
+    HilCommand{"streams", refer_to_px4},
 };
 
 }  // namespace

@@ -79,6 +79,8 @@ void HilSimulator::step_due(MonoTime now) {
 void HilSimulator::maintain(MonoTime now) {
     maintain_due_ = now + 1s;
     for (const auto& port : ports_) port->maintain(now);
+    for (std::size_t i = 1; i < ports_.size(); ++i)
+        for (std::size_t before = 0; before < i; ++before) ports_[i]->note_double(*ports_[before]);
 }
 
 HilPort* HilSimulator::port_of(link::EndpointId endpoint) noexcept {

@@ -180,22 +180,78 @@ SetupResult<void> check_board(const Scenario& scenario, std::size_t vehicles) {
     return {};
 }
 
-SetupResult<void> check_company(const Scenario& scenario) {
-    if (!scenario.endpoints.empty())
-        return hil_error(fmt::format("{}: with hil, PX4 sends the telemetry; the simulator has no other endpoint",
-                                     scenario.endpoints.front().endpoint.label()));
-    if (!scenario.orders.empty())
-        return hil_error("with hil, PX4 takes the orders; the scenario can have no [[event]]");
-    if (!scenario.recording.empty()) return hil_error("with hil, PX4 sends the telemetry; record cannot have it");
-    if (!scenario.ring.name.empty()) return hil_error("with hil, PX4 sends the telemetry; ring cannot have it");
+// Keys of a scenario that PX4 decides itself, and those that are for PX4 outside only.
+struct OwnKey {
+    std::string_view section, key, why;
+};
+constexpr std::string_view it_sends = "PX4 sends the telemetry", it_has = "PX4 has its own",
+                           flies_all = "PX4 flies the vehicle";
+constexpr std::array keys_of_px4{
+    OwnKey{sim_section, "profile", it_sends},
+    OwnKey{sim_section, "record", it_sends},
+    OwnKey{sim_section, "ring", it_sends},
+    OwnKey{web_section, "listen", it_sends},
+    OwnKey{vehicle_section, "autopilot", "the autopilot is PX4"},
+    OwnKey{vehicle_section, "motion", flies_all},
+    OwnKey{vehicle_section, "battery", it_has},
+    OwnKey{vehicle_section, "gimbal", it_has},
+    OwnKey{vehicle_section, "traffic", it_has},
+    OwnKey{vehicle_section, "logs", it_has},
+    OwnKey{vehicle_section, "ready_after", it_has},
+    OwnKey{vehicle_section, "parameters", it_has},
+};
+
+// An error at the place where the setting was made.
+tl::unexpected<SetupError> wrong_setting(const config::Document& document, const config::Setting& setting,
+                                         std::string_view what) {
+    if (setting.origin == config::Origin::file)
+        return document.error(setting.line, fmt::format("{}: {}", setting.key, what));
+    return hil_error(fmt::format("{}: {}", setting.variable, what));
+}
+
+bool is_given(const config::Setting& setting) { return setting.origin != config::Origin::by_default; }
+
+// `autopilot = "px4"` changes nothing.
+bool is_usual(const config::Setting& setting) { return setting.key == "autopilot" && setting.value == "px4"; }
+
+SetupResult<void> check_settings(const Scenario& scenario, const config::Document& document) {
+    for (const config::Section& section : scenario.sections)
+        for (const config::Setting& setting : section.settings) {
+            const auto own = std::ranges::find_if(
+                keys_of_px4, [&](const OwnKey& key) { return key.section == section.name && key.key == setting.key; });
+            if (own != keys_of_px4.end() && is_given(setting) && !is_usual(setting))
+                return wrong_setting(document, setting, fmt::format("not with hil: {}", own->why));
+        }
     return {};
 }
 
-SetupResult<void> check_hil_vehicles(const Scenario& scenario) {
-    for (const ScenarioVehicle& vehicle : scenario.vehicles)
-        if (vehicle.options.kind != sim::Kind::quad || vehicle.options.motion != sim::Motion::flight)
-            return hil_error("with hil, the vehicle is a quad; its body may have 4, 6 or 8 rotors");
+SetupResult<void> check_sections(const Scenario& scenario, const config::Document& document) {
+    for (const config::Section& section : scenario.sections) {
+        const bool is_for_own_pilots = section.name == streams_section || section.name == endpoint_section ||
+                                       section.name == event_section;
+        if (is_for_own_pilots && section.line != 0)
+            return document.error(section.line, fmt::format("no [{}] with hil: {}", section.name,
+                                                            section.name == event_section ? flies_all : it_sends));
+    }
+    if (scenario.endpoints.empty()) return {};
+    return hil_error(fmt::format("{}: not with hil: {}", scenario.endpoints.front().endpoint.label(), it_sends));
+}
+
+SetupResult<void> check_hil_vehicles(const Scenario& scenario, const config::Document& document) {
+    for (const config::Section& section : scenario.sections) {
+        if (section.name != vehicle_section) continue;
+        const auto kind = std::ranges::find(section.settings, "kind", &config::Setting::key);
+        if (kind != section.settings.end() && kind->value != "quad" && is_given(*kind))
+            return wrong_setting(document, *kind, "with hil, the vehicle is a quad; its body may have 4, 6 or 8 rotors");
+    }
     return {};
+}
+
+// Without `hil`.
+SetupResult<void> check_no_hil(const Scenario& scenario, const config::Document& document) {
+    const auto* const sensors = setting_of(scenario, sim_section, "hil_sensors");
+    if (sensors == nullptr || !is_given(*sensors)) return {};
+    return wrong_setting(document, *sensors, "it is for hil, which is not set");
 }
 
 SetupResult<void> check_ports(const Scenario& scenario, std::size_t vehicles) {
@@ -206,13 +262,14 @@ SetupResult<void> check_ports(const Scenario& scenario, std::size_t vehicles) {
 
 }  // namespace
 
-SetupResult<void> complete_hil(Scenario& scenario, const config::Environment& px4) {
-    if (!scenario.hil) return {};
+SetupResult<void> complete_hil(Scenario& scenario, const config::Document& document, const config::Environment& px4) {
+    if (!scenario.hil) return check_no_hil(scenario, document);
     const Px4Variables variables(px4);
     if (auto done = read_px4_variables(variables, scenario); !done) return done;
     if (auto good = check_imu_rate(variables, scenario.hil_rates); !good) return good;
-    if (auto good = check_company(scenario); !good) return good;
-    if (auto good = check_hil_vehicles(scenario); !good) return good;
+    if (auto good = check_settings(scenario, document); !good) return good;
+    if (auto good = check_sections(scenario, document); !good) return good;
+    if (auto good = check_hil_vehicles(scenario, document); !good) return good;
     std::size_t vehicles = 0;
     for (const ScenarioVehicle& group : scenario.vehicles) vehicles += group.count;
     if (auto good = check_board(scenario, vehicles); !good) return good;
