@@ -25,7 +25,7 @@ const LatestRow* Inspector::add(const Heard& heard) {
         sender->heard = heard.now;
         sender->link = heard.link;
     }
-    if (row->tag != 0) handle(*parts_, *row, sender, {source, heard.time, heard.now});
+    if (row->tag != 0) handle(*parts_, *row, sender, {source, heard.time, heard.now - heard.waited});
     return row;
 }
 

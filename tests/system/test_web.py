@@ -3,9 +3,12 @@
 decoder, and urllib. Frames are pymavlink's."""
 import contextlib
 import json
+import os
 import re
+import signal
 import socket
 import struct
+import time
 import urllib.error
 import urllib.request
 
@@ -111,6 +114,9 @@ class Web:
         """The samples of /metrics without labels."""
         return {s.name: s.value for f in text_string_to_metric_families(self.get("/metrics")) for s in f.samples
                 if not s.labels}
+
+    def messages(self):
+        return json.loads(self.get("/api/v1/messages"))
 
     def viewer(self, **options):
         return Viewer(self.url("ws"), **options)
@@ -293,6 +299,31 @@ def test_alarms_and_losses(web):
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as stranger:  # whose frame never was one
         stranger.sendto(bytes(damaged), server.vehicle.target)
     harness.wait_for(lambda: losses().get("stray_bytes") == len(damaged), what="damaged datagram of no link")
+
+
+def test_a_server_that_stood_still_sees_no_clock_jump(web):
+    server = web()
+    begin = time.time()
+
+    def send():
+        now = time.time()
+        server.send(mavlink.MAVLink_system_time_message(int(now * 1e6), 60_000 + int((now - begin) * 1000)))
+
+    send()
+    harness.wait_for(lambda: server.messages(), what="the first message")
+    os.kill(server.process.pid, signal.SIGSTOP)
+    try:
+        sent = 1
+        while time.time() - begin < 3:
+            send()
+            sent += 1
+            time.sleep(0.1)
+    finally:
+        os.kill(server.process.pid, signal.SIGCONT)
+    harness.wait_for(lambda: server.messages()[0]["frames"] == sent, what="all messages")
+    send()
+    assert harness.wait_for(lambda: server.messages()[0]["frames"] == sent + 1, what="another message")
+    assert json.loads(server.get("/api/v1/alarms"))["alarms"] == []
 
 
 def test_its_sources_are_links(web):

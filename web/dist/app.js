@@ -221,16 +221,16 @@ view",query:"",sort:{column:"source",isDown:!1},columns:[...Cm],opened:null,plot
 e).replace(/[~!']/g,t=>`%${t.charCodeAt(0).toString(16).toUpperCase()}`).replaceAll("%2F","/").replaceAll("%2C",",");function Ll(e){
 try{return decodeURIComponent(e)}catch{return""}}function Dm(e){let t=[Dl(e.topic),Dl(e.formula),String(e.axis),String(e.
 scale),String(e.offset)],n=["","","0","1","0"];for(;t.length>2&&t.at(-1)===n[t.length-1];)t.pop();return t.join("~")}var lc=(e,t)=>e!==
-void 0&&e!==""&&Number.isFinite(Number(e))?Number(e):t;function Lm(e){let[t="",n="",r,o,l]=e.split("~");return t===""||n===
-""?[]:[{topic:Ll(t),formula:Ll(n),axis:r==="1"?1:0,scale:lc(o,1),offset:lc(l,0)}]}function Rl(e){let t=ic(),n=[],r=(o,l,a)=>{
-l!==a&&n.push(`${o}=${l}`)};r("q",Dl(e.query),""),r("sort",`${e.sort.isDown?"-":""}${e.sort.column}`,t.sort.column),r("c\
-ols",e.columns.join(","),t.columns.join(",")),r("open",Dl(e.opened??""),""),r("span",String(e.span),String(t.span));for(let o of e.
-plots)n.push(`plot=${o.map(Dm).join("!")}`);return e.view+(n.length>0?`?${n.join("&")}`:"")}function $m(e,t){t.length>0&&
-e.plots.push(t)}function Rm(e,t,n){if(t==="q"&&(e.query=Ll(n)),t==="open"&&(e.opened=Ll(n)||null),t==="span"&&gs.includes(
-Number(n))&&(e.span=Number(n)),t==="cols"&&(e.columns=rr.filter(o=>o==="name"||n.split(",").includes(o))),t==="plot"&&e.
-plots.length<$l&&$m(e,n.split("!").flatMap(Lm).slice(0,vs)),t!=="sort")return;let r=n.replace(/^-/,"");rr.includes(r)&&(e.
-sort={column:r,isDown:n.startsWith("-")})}function _s(e){let t=ic(),[n="",r=""]=e.replace(/^#/,"").split("?",2);Fm.includes(
-n)&&(t.view=n);for(let o of r.split("&")){let l=o.indexOf("=");l>0&&Rm(t,o.slice(0,l),o.slice(l+1))}return t}var or=_s(location.hash),He=I(or.view),Cn=I(or.query),_n=I(or.sort),Dn=I(or.columns),ye=I(or.opened),he=I(or.plots),Ln=I(
+void 0&&e!==""&&Number.isFinite(Number(e))?Number(e):t;function Lm(e){let[t="",n="",r,o,l]=e.split("~"),a=Ll(t),c=Ll(n);
+return a===""||c===""?[]:[{topic:a,formula:c,axis:r==="1"?1:0,scale:lc(o,1),offset:lc(l,0)}]}function Rl(e){let t=ic(),n=[],
+r=(o,l,a)=>{l!==a&&n.push(`${o}=${l}`)};r("q",Dl(e.query),""),r("sort",`${e.sort.isDown?"-":""}${e.sort.column}`,t.sort.
+column),r("cols",e.columns.join(","),t.columns.join(",")),r("open",Dl(e.opened??""),""),r("span",String(e.span),String(t.
+span));for(let o of e.plots)n.push(`plot=${o.map(Dm).join("!")}`);return e.view+(n.length>0?`?${n.join("&")}`:"")}function $m(e,t){
+t.length>0&&e.plots.push(t)}function Rm(e,t,n){if(t==="q"&&(e.query=Ll(n)),t==="open"&&(e.opened=Ll(n)||null),t==="span"&&
+gs.includes(Number(n))&&(e.span=Number(n)),t==="cols"&&(e.columns=rr.filter(o=>o==="name"||n.split(",").includes(o))),t===
+"plot"&&e.plots.length<$l&&$m(e,n.split("!").flatMap(Lm).slice(0,vs)),t!=="sort")return;let r=n.replace(/^-/,"");rr.includes(
+r)&&(e.sort={column:r,isDown:n.startsWith("-")})}function _s(e){let t=ic(),[n="",r=""]=e.replace(/^#/,"").split("?",2);Fm.
+includes(n)&&(t.view=n);for(let o of r.split("&")){let l=o.indexOf("=");l>0&&Rm(t,o.slice(0,l),o.slice(l+1))}return t}var or=_s(location.hash),He=I(or.view),Cn=I(or.query),_n=I(or.sort),Dn=I(or.columns),ye=I(or.opened),he=I(or.plots),Ln=I(
 or.span),Mt=I(!1),Co=I(""),sc=0;function Gr(e){Co.value=e,clearTimeout(sc),sc=window.setTimeout(()=>{Co.value=""},4e3)}function bs(){
 return{view:He.value,query:Cn.value,sort:_n.value,columns:Dn.value,opened:ye.value,plots:he.value,span:Ln.value}}function Im(e){
 un(()=>{He.value=e.view,Cn.value=e.query,_n.value=e.sort,Dn.value=e.columns,ye.value=e.opened,he.value=e.plots,Ln.value=

@@ -30,7 +30,7 @@ test("the address keeps the whole state", () => {
 
 test("an address with wrong parts loses only these", () => {
     const state = decodeState(
-        "#nowhere?q=%E0%A4%A&sort=-nothing&cols=hz,drop&span=7&plot=/1/1/A&plot=~~&open=/1/1/A&x&=&plot=/1/1/B~z~9~x~",
+        "#nowhere?q=%E0%A4%A&sort=-nothing&cols=hz,drop&span=7&plot=/1/1/A&plot=~~&plot=%ZZ~%ZZ&open=/1/1/A&x&=&plot=/1/1/B~z~9~x~",
     );
     assert.deepEqual(state, {
         ...usualState(),

@@ -33,13 +33,15 @@ void Serving::run() {
 }
 
 void Serving::pass_some(MonoTime now) {
+    const auto wall = wall_now();
     for (int i = 0; i < frames_at_once && going_; ++i) {
         const auto entry = receiver_.next();
         if (!entry) return;
         if (options_.on_arrival) options_.on_arrival(entry->frame);
         if (!options_.filter.admits(entry->frame)) continue;
         if (options_.on_frame) options_.on_frame(entry->frame, entry->time);
-        audience_.take({entry->frame, entry->link, receiver_.link_name(entry->link), entry->time, now});
+        audience_.take({entry->frame, entry->link, receiver_.link_name(entry->link), entry->time, now,
+                        observe::waited_since(entry->time, wall)});
         going_ = ++frames_ != options_.count;
     }
 }

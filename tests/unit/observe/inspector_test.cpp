@@ -362,6 +362,24 @@ TEST_F(InspectorTest, AClockJumps) {
     EXPECT_THAT(alarms(), ElementsAre("clock warning 1/1: the clock of its messages jumped by +100.0 s"));
 }
 
+TEST_F(InspectorTest, AReaderThatStoodStillIsNoJump) {
+    for (int i = 0; i < 40; ++i) {
+        const Nanoseconds arrival = i * 500ms,
+                          read = std::max<Nanoseconds>(arrival, 15s);  // all of the first 15 s at once
+        const auto bytes = frame_of(msg::SystemTime{.time_unix_usec = static_cast<std::uint64_t>(unix_us(wall(arrival))),
+                                                    .time_boot_ms = static_cast<std::uint32_t>(60'000 + i * 500)});
+        inspector.add({.frame = view(bytes),
+                       .link = LinkId{1},
+                       .link_name = "link",
+                       .time = wall(arrival),
+                       .now = mono(i == 0 ? 0s : read),
+                       .waited = i == 0 ? 0s : waited_since(wall(arrival), wall(read))});
+    }
+    EXPECT_THAT(alarms(), IsEmpty());
+    EXPECT_EQ(waited_since(wall(0s), wall(61s)), 0s) << "of a recording";
+    EXPECT_EQ(waited_since(wall(1s), wall(0s)), 0s) << "the clock was set back";
+}
+
 TEST_F(InspectorTest, TimesOfDayThatCannotBeAreIgnored) {
     for (const std::uint64_t time : {std::uint64_t{4'102'444'800'000'000}, std::uint64_t{4'102'444'800'000'001},
                                      std::uint64_t{9'300'000'000'000'000}, ~std::uint64_t{0}})

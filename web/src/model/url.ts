@@ -77,12 +77,14 @@ const finite = (text: string | undefined, otherwise: number): number =>
     text !== undefined && text !== "" && Number.isFinite(Number(text)) ? Number(text) : otherwise;
 
 function seriesOf(text: string): SeriesState[] {
-    const [topic = "", formula = "", axis, scale, offset] = text.split("~");
+    const [first = "", second = "", axis, scale, offset] = text.split("~");
+    const topic = decoded(first),
+        formula = decoded(second);
     if (topic === "" || formula === "") return [];
     return [
         {
-            topic: decoded(topic),
-            formula: decoded(formula),
+            topic,
+            formula,
             axis: axis === "1" ? 1 : 0,
             scale: finite(scale, 1),
             offset: finite(offset, 0),
