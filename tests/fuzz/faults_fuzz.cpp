@@ -17,7 +17,7 @@ using namespace mavloom;
 
 using Chain = std::vector<std::unique_ptr<link::Stage>>;
 
-// What came behind a place of a chain.
+// The pieces that reached one place of a chain.
 struct Arrived {
     std::uint64_t pieces = 0, bytes = 0;
 };
@@ -50,8 +50,8 @@ std::uint64_t dropped(const link::LinkCounters& counters) {
 
 struct Link {
     explicit Link(const fault::Plan& plan)
-        : stages(fault::stages_of(
-              plan, "fuzz", {LinkId{1}, "fuzz", true, 0, counters, dialect::default_dialect().wire_table()})) {}
+        : stages(fault::stages_of(plan, "fuzz",
+                                  {LinkId{1}, "fuzz", true, 0, counters, dialect::default_dialect().wire_table()})) {}
 
     link::LinkCounters counters;
     link::Stages stages;
