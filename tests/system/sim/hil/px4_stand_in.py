@@ -13,6 +13,7 @@ JSON (see Options). It prints a JSON object a line. Everything on the wire is co
 import argparse
 import contextlib
 import dataclasses
+import hashlib
 import json
 import math
 import os
@@ -43,9 +44,9 @@ class Options:
     silent_steps: float = math.inf  # so many steps long
     copies: int = 1             # of each answer
     ahead_us: int = 0           # added to the time of each answer
-    faulty: str = ""            # "nan", "beyond": what controls 5 and 6 are while armed
+    faulty: str = ""            # "nan", "beyond": what the controls of each 50th answer are while armed
     stay: bool = True           # after the flight, answer until the simulator ends
-    heartbeats: bool = False    # from 18570 + instance: to 14550, and from its first word on to the first that speaks
+    telemetry: bool = False     # from port 18570 + instance to 14550, and then to the first that sends to it
 
 
 @dataclasses.dataclass
@@ -53,6 +54,7 @@ class State:
     place: tuple = (0.0, 0.0, 0.0)     # m north, east, up of the start
     velocity: tuple = (0.0, 0.0, 0.0)  # m/s north, east, up
     attitude: tuple = (1.0, 0.0, 0.0, 0.0)
+    degrees: tuple = (0, 0, 0)         # latitude and longitude in 1e-7 degrees, mm above mean sea level
 
 
 def tell(what, **more):
@@ -64,8 +66,8 @@ class Sensors:
 
     def __init__(self):
         self.counts, self.first, self.worst = {}, {}, {"baro_m": 0.0, "gps_m": 0.0, "speed_m_s": 0.0}
-        self.rest = None
-        self.steps_us, self.last_us = set(), None
+        self.rest = []  # accelerations and magnetic fields before take-off
+        self.digest = hashlib.sha256()  # of the first 200 HIL_SENSOR
 
     def count(self, what):
         self.counts[what] = self.counts.get(what, 0) + 1
@@ -77,16 +79,21 @@ class Sensors:
         for name, bits in (("gyro", GYRO), ("mag", MAGNETOMETER), ("baro", BAROMETER)):
             if message.fields_updated & bits == bits:
                 self.count(name)
+        if self.counts.get("gyro", 0) <= 200:
+            self.digest.update(message.to_json().encode())
         if message.fields_updated & BAROMETER == BAROMETER:
             altitude = 44330.77 * (1 - (message.abs_pressure / 1013.25) ** 0.190263)
             self.compare("baro_m", abs(altitude - self.first.setdefault("baro", altitude - up) - up))
 
     def on_rest(self, message):
-        """Before take-off: the accelerometer must show the ground's push, the compass the heading."""
-        if self.rest is None and message.fields_updated & MAGNETOMETER == MAGNETOMETER:
-            self.rest = {"acceleration": [message.xacc, message.yacc, message.zacc],
-                         "compass_deg": math.degrees(math.atan2(-message.ymag, message.xmag)),
-                         "field_gauss": math.hypot(message.xmag, message.ymag, message.zmag)}
+        if message.fields_updated & MAGNETOMETER == MAGNETOMETER:
+            self.rest.append((message.xacc, message.yacc, message.zacc, message.xmag, message.ymag, message.zmag))
+
+    def mean_at_rest(self):
+        """The accelerometer must show the ground's push, the compass the heading."""
+        mean = [sum(values) / len(self.rest) for values in zip(*self.rest)]
+        return {"acceleration": mean[:3], "field_gauss": math.hypot(*mean[3:]),
+                "compass_deg": math.degrees(math.atan2(-mean[4], mean[3]))}
 
 
 class Flight:
@@ -149,18 +156,19 @@ class StandIn:
         # HIL_STATE_QUATERNION every 5 ms, as PX4 asks.
         self.send(mavlink.MAVLink_command_long_message(0, 0, 511, 0, 115, 5000, 0, 0, 0, 0, 0),
                   mavlink.MAVLink_heartbeat_message(0, 12, 0, 0, 0, 3))
-        if self.options.heartbeats:
+        if self.options.telemetry:
             self.station = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
             self.station.bind(("127.0.0.1", 18570 + self.instance))
             self.station.setblocking(False)
         tell("connected", port=address[1])
 
     def send(self, *messages):
-        self.link.sendall(b"".join(self.coded(message) for message in messages))
+        self.link.sendall(b"".join(self.coded(message, self.mav) for message in messages))
 
-    def coded(self, message):
-        frame = message.pack(self.mav)
-        self.mav.seq = (self.mav.seq + 1) % 256
+    @staticmethod
+    def coded(message, mav):
+        frame = message.pack(mav)
+        mav.seq = (mav.seq + 1) % 256
         return frame
 
     def run(self):
@@ -198,7 +206,7 @@ class StandIn:
         self.home = self.home or (message.lat, message.lon, message.alt)
         self.state = State(self.from_home(message.lat, message.lon, message.alt),
                            (message.vx / 100, message.vy / 100, -message.vz / 100),
-                           tuple(message.attitude_quaternion))
+                           tuple(message.attitude_quaternion), (message.lat, message.lon, message.alt))
 
     def on_hil_sensor(self, message):
         self.sensors.on_sensor(message, self.state.place[2])
@@ -221,7 +229,7 @@ class StandIn:
             self.began_us, dt = message.time_usec, 0.004
             tell("first answer", step=self.steps, time_us=message.time_usec)
         at = (message.time_usec - self.began_us) / 1e6
-        if not self.flight.is_armed:
+        if self.flight.phase == "rest":
             self.sensors.on_rest(message)
         was = self.flight.phase
         self.flight.step(at, self.state)
@@ -233,28 +241,36 @@ class StandIn:
         outputs = self.flight.outputs(self.state, (message.xgyro, message.ygyro, message.zgyro), min(dt, 0.1))
         self.send(*[self.controls(message.time_usec + self.options.ahead_us, outputs)] * self.options.copies)
         self.answers += 1
-        if self.station and self.answers % 250 == 1:
-            self.beat()
+        if self.station and self.answers % 50 == 1:
+            self.send_telemetry()
         if self.flight.phase == "landed" != was:
             self.report(at)
 
-    def beat(self):
+    def send_telemetry(self):
+        """Sends as PX4 does on its link for ground stations."""
         with contextlib.suppress(BlockingIOError):
             while self.partner[1] == GROUND_STATION:
                 self.partner = self.station.recvfrom(2048)[1]
-        self.station.sendto(mavlink.MAVLink_heartbeat_message(2, 12, 81, 0, 3, 3).pack(self.station_mav), self.partner)
+        latitude, longitude, altitude = self.state.degrees
+        armed = 128 if self.flight.is_armed else 0
+        for message in (mavlink.MAVLink_heartbeat_message(2, 12, 81 | armed, 0, 4 if armed else 3, 3),
+                        mavlink.MAVLink_global_position_int_message(
+                            self.newest_us // 1000, latitude, longitude, altitude,
+                            round(1000 * self.state.place[2]), 0, 0, 0, 65535)):
+            self.station.sendto(self.coded(message, self.station_mav), self.partner)
 
     def controls(self, time_us, outputs):
         armed = self.flight.is_armed
+        if armed and self.options.faulty and self.answers % 50 == 0:
+            outputs = [{"nan": math.nan, "beyond": 7.0}[self.options.faulty]] * 4
         values = [*outputs, *[0.0] * 12]
-        if armed and self.options.faulty:
-            values[4:6] = {"nan": [math.nan, math.nan], "beyond": [7.0, -3.0]}[self.options.faulty]
         return mavlink.MAVLink_hil_actuator_controls_message(time_us, values, ARMED if armed else DISARMED, LOCKSTEP)
 
     def report(self, at):
         tell("report", flight_s=at, steps=self.steps, answers=self.answers, time_errors=self.time_errors,
-             highest_m=self.flight.highest, place=self.state.place, counts=self.sensors.counts, rest=self.sensors.rest,
-             worst=self.sensors.worst, heading_deg=math.degrees(euler(self.state.attitude)[2]))
+             highest_m=self.flight.highest, place=self.state.place,
+             heading_deg=math.degrees(euler(self.state.attitude)[2]), counts=self.sensors.counts,
+             rest=self.sensors.mean_at_rest(), worst=self.sensors.worst, digest=self.sensors.digest.hexdigest())
         self.ended = not self.options.stay
 
 
