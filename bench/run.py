@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Runs the benchmarks behind docs/performance.md, one after another: ./run bench
-[parse|decode|python|listen|inside|shm|sim|pipeline|route|websocket|hostile|web|page|top ...]. Most of them compare
+[parse|decode|python|listen|inside|shm|sim|hil|pipeline|route|websocket|hostile|web|page|top ...]. Most compare
 Mavloom with another program. If one benchmark is named, options that this script does not know are passed to it:
 ./run bench route --quick"""
 import argparse
@@ -25,6 +25,7 @@ def commands(program, build):
         "shm": [[sys.executable, HERE / "shm.py", "--tools", folder]],
         "sim": [[program, "bench", "sim"], [program, "bench", "sim", "--fly", "--vehicles", "100", "--seconds", "10"],
                 [sys.executable, HERE / "sim.py", "--program", program, "--tools", folder]],
+        "hil": [[sys.executable, HERE / "hil.py", "--program", program, "--tools", folder]],
         "pipeline": [[sys.executable, HERE / "pipeline.py", "--program", program, "--tools", folder]],
         "route": [[sys.executable, HERE / "route.py", "--program", program, "--tools", folder]],
         "websocket": [[sys.executable, HERE / "websocket.py", "--program", program, "--tools", folder]],
