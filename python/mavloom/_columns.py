@@ -254,20 +254,21 @@ class Columns(dict[str, Array]):
 @overload
 def columns(path: Paths, name: str | type[Message], *, system: int | None = None, component: int | None = None,
             instance: int | str | None = None, start: Time | None = None, end: Time | None = None,
-            fields: Sequence[str] | None = None, dialect: Dialect | None = None) -> Columns: ...
+            fields: Sequence[str] | None = None, dialect: Dialect | None = None, progress: bool = False) -> Columns: ...
 
 
 @overload
 def columns(path: Paths, name: Names, *,
             system: int | None = None, component: int | None = None, instance: int | str | None = None,
             start: Time | None = None, end: Time | None = None,
-            fields: Sequence[str] | None = None, dialect: Dialect | None = None) -> dict[str, Columns]: ...
+            fields: Sequence[str] | None = None, dialect: Dialect | None = None,
+            progress: bool = False) -> dict[str, Columns]: ...
 
 
 def columns(path: Paths, name: str | type[Message] | Names, *, system: int | None = None, component: int | None = None,
             instance: int | str | None = None, start: Time | None = None, end: Time | None = None,
-            fields: Sequence[str] | None = None,
-            dialect: Dialect | None = None) -> Columns | dict[str, Columns]:
+            fields: Sequence[str] | None = None, dialect: Dialect | None = None,
+            progress: bool = False) -> Columns | dict[str, Columns]:
     """Reads all messages `name` of a tlog as columns, in one pass in C++ and without an object for each message.
 
     `path` may be a list of files, whose rows follow each other. `name` is a name or a class of mavloom.messages. It may
@@ -279,6 +280,7 @@ def columns(path: Paths, name: str | type[Message] | Names, *, system: int | Non
     - `start` and `end` select rows by their recorded time, from `start` up to but not including `end`. Each is a Unix
       time in ns, an aware datetime, a numpy.datetime64 or a pandas.Timestamp.
     - `fields` selects the columns; time_ns, sys and comp are always there.
+    - With `progress=True`, a line on stderr shows how much of each file is read, if stderr is a terminal.
 
     An unknown name, a field that none of the messages has, or `instance` for a message without such a field, raises
     UsageError (a ValueError). Damage in the file is skipped and counted in `junk_bytes`. Checksums of other messages
@@ -295,18 +297,19 @@ def columns(path: Paths, name: str | type[Message] | Names, *, system: int | Non
         check_fields(definitions, names, wanted or [])
         if instance is None:
             found = tables(files, names, system=system, component=component, start=begin, end=before, fields=wanted,
-                           dialect=definitions)
+                           dialect=definitions, progress=progress)
             return {one: found[one] for one in names}
         return {one: columns(files, one, system=system, component=component, instance=instance, start=begin, end=before,
                              fields=None if wanted is None else [f for f in wanted if has_field(definitions, one, f)],
-                             dialect=definitions) for one in names}
-    parts, junk_bytes = read_columns(files, name, system, component, instance, begin, before, wanted, definitions)
+                             dialect=definitions, progress=progress) for one in names}
+    parts, junk_bytes = read_columns(files, name, system, component, instance, begin, before, wanted, definitions,
+                                     progress)
     return _made(definitions, name, parts, junk_bytes)
 
 
 def tables(path: Paths, type: MessageTypes | None = None, *, system: int | None = None, component: int | None = None,
            start: Time | None = None, end: Time | None = None, fields: str | Iterable[str] | None = None,
-           dialect: Dialect | None = None) -> dict[str, Columns]:
+           dialect: Dialect | None = None, progress: bool = False) -> dict[str, Columns]:
     """Reads several messages of a tlog as columns, in one pass: {"ATTITUDE": Columns, ...}, ordered by message id.
 
     Without `type`, returns all messages that occur in the file; with `type`, the messages that it names. Messages
@@ -316,7 +319,7 @@ def tables(path: Paths, type: MessageTypes | None = None, *, system: int | None 
     definitions = Dialect() if dialect is None else dialect
     wanted = None if fields is None else list_of_names("fields", fields)
     made, junk_bytes = read_tables(paths_of(path), type, system, component, time_ns_of("start", start),
-                                   time_ns_of("end", end), wanted, definitions)
+                                   time_ns_of("end", end), wanted, definitions, progress)
     return {name: _made(definitions, name, parts, junk_bytes) for name, parts in made.items()}
 
 

@@ -391,3 +391,34 @@ def test_progress_off_a_terminal_is_silent(flight, child_environment):
                           env=child_environment, check=True)
     assert done.stderr == ""
     assert mavloom.read(flight, progress=True).summary().frames == 40087  # under pytest, whose stderr is no file
+
+
+SLOW_COLUMNS = """
+import os, sys, threading, time
+import mavloom
+flight, pipe, what = sys.argv[1:]
+os.mkfifo(pipe)
+def write():
+    with open(flight, "rb") as file, open(pipe, "wb") as out:
+        records = file.read()
+        for _ in range(5):  # 11 MB
+            out.write(records)
+            time.sleep(0.2)
+threading.Thread(target=write).start()
+if what == "columns":
+    print(len(mavloom.columns(pipe, "ATTITUDE", progress=True)) // 5)
+else:
+    print(len(mavloom.tables(pipe, progress=True)["ATTITUDE"]) // 5)
+"""
+
+
+@pytest.mark.parametrize("what", ["columns", "tables"])
+def test_columns_show_progress_on_a_terminal(flight, child_environment, tmp_path, what):
+    ours, theirs = pty.openpty()
+    done = subprocess.run([sys.executable, "-c", SLOW_COLUMNS, flight, tmp_path / "pipe", what], stdout=subprocess.PIPE,
+                          stderr=theirs, env=child_environment, text=True, check=True)
+    os.close(theirs)
+    seen = os.read(ours, 1 << 16).decode()
+    os.close(ours)
+    assert int(done.stdout) == len(mavloom.columns(flight, "ATTITUDE"))
+    assert re.search(r"\r *\d+ frames", seen) and re.search(r"\r +\r$", seen), seen

@@ -19,6 +19,7 @@
 #include "message/filter.hpp"
 #include "message/message.hpp"
 #include "recording/columns.hpp"
+#include "recording/progress.hpp"
 #include "strings.hpp"
 
 namespace mavloom::python {
@@ -77,10 +78,22 @@ record::TlogReader open(const nb::handle& path, const dialect::Dialect& dialect)
     return value_or_raise(record::TlogReader::open(path_of(path), dialect.wire_table()));
 }
 
+// Shows how much of a file was read, if the caller wants that. Not of a pipe, which has no size.
+void show_progress(Progress& progress, const record::TlogReader& reader) {
+    if (!progress.is_due()) return;
+    const auto size = reader.is_file() ? reader.size() : 0;
+    const auto part = static_cast<double>(reader.position()) / static_cast<double>(std::max<std::uint64_t>(size, 1));
+    progress.show({.frames = reader.counters().records.value(),
+                   .bytes = reader.position(),
+                   .part = size == 0 ? std::nullopt : std::optional(part)});
+}
+
 // Calls `read` without the GIL until there is no more. Handles signals between the calls.
 template <class Read>
-void read_all(Read read) {
+void read_all(const record::TlogReader& reader, bool shows_progress, Read read) {
+    auto progress = shows_progress ? Progress::on_stderr() : Progress();
     for (bool more = true; more; check_signals()) {
+        show_progress(progress, reader);
         auto result = [&] {
             const WithoutGil outside;
             return read();
@@ -98,7 +111,8 @@ RowsQuery query_of(dialect::Filter filter, const OptionalInteger& begin, const O
 
 nb::tuple read_columns_of(const nb::list& paths, const std::string& name, const OptionalInteger& system,
                           const OptionalInteger& component, const nb::object& instance, const OptionalInteger& begin,
-                          const OptionalInteger& end, const FieldNames& fields, const nb::object& dialect) {
+                          const OptionalInteger& end, const FieldNames& fields, const nb::object& dialect,
+                          bool progress) {
     const auto definitions = definitions_of(dialect);
     const auto& message = *value_or_raise(definitions->dialect().message(name));
     auto query = query_of(make_filter(definitions->dialect(), nb::none(), system, component), begin, end);
@@ -108,7 +122,7 @@ nb::tuple read_columns_of(const nb::list& paths, const std::string& name, const 
     std::uint64_t lost_bytes = 0;
     for (const nb::handle path : paths) {
         auto reader = open(path, definitions->dialect());
-        read_all([&] { return read_rows(reader, query, table, bytes_between_signals); });
+        read_all(reader, progress, [&] { return read_rows(reader, query, table, bytes_between_signals); });
         lost_bytes += reader.counters().lost_bytes.value();
     }
     return nb::make_tuple(arrays_of(*definitions, table), lost_bytes);
@@ -127,7 +141,7 @@ void check_fields(const dialect::Dialect& dialect, const Tables& tables) {
 
 nb::tuple read_tables_of(const nb::list& paths, const nb::object& type, const OptionalInteger& system,
                          const OptionalInteger& component, const OptionalInteger& begin, const OptionalInteger& end,
-                         const FieldNames& fields, const nb::object& dialect) {
+                         const FieldNames& fields, const nb::object& dialect, bool progress) {
     const auto definitions = definitions_of(dialect);
     const auto& known = definitions->dialect();
     const auto infos = known.wire_table().messages();
@@ -146,7 +160,7 @@ nb::tuple read_tables_of(const nb::list& paths, const nb::object& type, const Op
     std::uint64_t lost_bytes = 0;
     for (const nb::handle path : paths) {
         auto reader = open(path, known);
-        read_all([&] { return read_tables(reader, known, query, tables, bytes_between_signals); });
+        read_all(reader, progress, [&] { return read_tables(reader, known, query, tables, bytes_between_signals); });
         lost_bytes += reader.counters().lost_bytes.value();
     }
     nb::dict made;
@@ -164,21 +178,21 @@ void bind_columns(nb::module_& module) {
     module.def(
         "read_columns", &read_columns_of, nb::arg("paths"), nb::arg("name"), nb::arg("system").none(),
         nb::arg("component").none(), nb::arg("instance").none(), nb::arg("begin").none(), nb::arg("end").none(),
-        nb::arg("fields").none(), nb::arg("dialect").none(),
-        nb::sig(
-            "def read_columns(paths: list[str | os.PathLike[str]], name: str, system: int | None, component: int | "
-            "None, "
-            "instance: int | str | None, begin: int | None, end: int | None, fields: list[str] | None, "
-            "dialect: Dialect | None) -> tuple[tuple[typing.Any, typing.Any, typing.Any, dict[str, typing.Any]], int]"),
+        nb::arg("fields").none(), nb::arg("dialect").none(), nb::arg("progress"),
+        nb::sig("def read_columns(paths: list[str | os.PathLike[str]], name: str, system: int | None, component: int | "
+                "None, "
+                "instance: int | str | None, begin: int | None, end: int | None, fields: list[str] | None, "
+                "dialect: Dialect | None, progress: bool) -> tuple[tuple[typing.Any, typing.Any, typing.Any, dict[str, "
+                "typing.Any]], int]"),
         "Returns ((times, systems, components, {field: values}), bytes of damage), from which\n"
         "mavloom.columns() makes its result.");
     module.def(
         "read_tables", &read_tables_of, nb::arg("paths"), nb::arg("type").none(), nb::arg("system").none(),
         nb::arg("component").none(), nb::arg("begin").none(), nb::arg("end").none(), nb::arg("fields").none(),
-        nb::arg("dialect").none(),
+        nb::arg("dialect").none(), nb::arg("progress"),
         nb::sig("def read_tables(paths: list[str | os.PathLike[str]], type: MessageTypes | None, system: int | None, "
                 "component: int | None, begin: int | None, end: int | None, fields: list[str] | None, "
-                "dialect: Dialect | None) -> tuple[dict[str, tuple[typing.Any, typing.Any, typing.Any, "
+                "dialect: Dialect | None, progress: bool) -> tuple[dict[str, tuple[typing.Any, typing.Any, typing.Any, "
                 "dict[str, typing.Any]]], int]"),
         "Returns ({message: as in read_columns}, bytes of damage), from which mavloom.tables() makes its\n"
         "result.");
