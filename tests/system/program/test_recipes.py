@@ -3,13 +3,18 @@
 commands."""
 import os
 import re
+import shlex
+import shutil
+import socket
 import subprocess
 import sys
 import urllib.request
 
 import frames
 import harness
+import netns
 import pytest
+from frames import mavlink
 
 PAGE = (harness.ROOT / "docs" / "guide" / "recipes.md").read_text()
 
@@ -62,3 +67,86 @@ def test_each_series_of_the_queries_exists(spawn, udp_port, udp_socket):
             return answer.read().decode()
     harness.wait_for(lambda: "mavloom_system_frames_total{" in text(), what="the vehicle's series")
     assert names <= set(re.findall(r"^(mavloom_\w+)\{", text(), re.MULTILINE))
+
+
+# ---- LTE: the vehicle's machine and the server, with a slow line between them ----------------------------------------
+
+def commands_of(title):
+    section = PAGE.split(f"\n## {title}\n")[1].split("\n## ")[0]
+    return [shlex.split(line)[1:] for line in re.findall(r"^mavloom .*", section, re.MULTILINE)]
+
+
+@pytest.fixture
+def machines():
+    yield from netns.two_machines()
+
+
+class Lte:
+    """The commands of the page, but for the serial port: a simulated vehicle takes its place."""
+
+    def __init__(self, program, spawn, machines, folder):
+        self.vehicle, self.server = machines
+        key, at_vehicle, at_server, _ = commands_of("LTE")
+        spawn(*key, cwd=folder).wait()
+        if not shutil.which("tc"):
+            pytest.skip("tc is missing")
+        line = ["tc", "qdisc", "add", "dev", self.vehicle.interface, "root", "tbf", "rate", "200kbit", "burst", "3000",
+                "latency", "2s"]
+        subprocess.run(self.vehicle.command(*line), check=True)
+        self.programs = []
+        self.start(self.server, program, folder, *at_server, "--name", f"lte-server-{os.getpid()}")
+        at_vehicle = [word.replace("serial:///dev/ttyAMA0?baud=921600", "udpin://127.0.0.1:14999")
+                      .replace("203.0.113.5", self.server.host) for word in at_vehicle]
+        self.start(self.vehicle, program, folder, *at_vehicle, "--name", f"lte-vehicle-{os.getpid()}")
+        self.start(self.vehicle, program, folder, "sim", "--to", "udpout://127.0.0.1:14999", "--name",
+                   f"lte-sim-{os.getpid()}")
+
+    def start(self, machine, program, folder, *command):
+        self.programs.append(harness.Running(machine.command(program, *command), env=harness.environment(), cwd=folder))
+
+    def station(self):
+        """A ground station at the server."""
+        def connect():
+            sock = self.server.socket(kind=socket.SOCK_STREAM)
+            if sock.connect_ex(("127.0.0.1", 5760)) == 0:
+                return sock
+            sock.close()
+            return None
+        return harness.wait_for(connect, what="the server's TCP port")
+
+
+@pytest.fixture
+def lte(program, spawn, machines, tmp_path):
+    made = Lte(program, spawn, machines, tmp_path)
+    yield made
+    harness.end(made.programs)
+
+
+def test_a_station_flies_over_lte_and_a_stranger_is_not_heard(lte):
+    station, parser = lte.station(), mavlink.MAVLink(None)
+    parser.robust_parsing = True
+    heard = []
+
+    def hear(wanted):
+        def look():
+            heard.extend(parser.parse_buffer(station.recv(65536)) or [])
+            return next((one for one in heard if wanted(one)), None)
+        return harness.wait_for(look, what="a message")
+
+    def is_answer(one):
+        return one.get_type() == "COMMAND_ACK" and one.command == mavlink.MAV_CMD_REQUEST_MESSAGE
+
+    hear(lambda one: one.get_type() == "HEARTBEAT")
+    with lte.vehicle.socket() as stranger:
+        for frame in frames.heartbeats(20, system=9):
+            stranger.sendto(frame, (lte.server.host, 14560))
+    asked = mavlink.MAVLink_command_long_message(1, 1, mavlink.MAV_CMD_REQUEST_MESSAGE, 0, 148, 0, 0, 0, 0, 0, 0)
+    station.sendall(bytes(asked.pack(frames.sender(255, 190))))
+    assert hear(is_answer).result == mavlink.MAV_RESULT_ACCEPTED
+    first = hear(lambda one: one.get_type() == "ATTITUDE").time_boot_ms
+    hear(lambda one: one.get_type() == "ATTITUDE" and one.time_boot_ms > first + 3000)
+    station.close()
+    attitudes = [one.time_boot_ms for one in heard if one.get_type() == "ATTITUDE"]
+    seconds = (attitudes[-1] - attitudes[0]) / 1000  # of the vehicle's clock
+    assert len(attitudes) <= 1.1 * 10 * seconds + 2, "max_rate=*:10"
+    assert not any(one.get_srcSystem() == 9 for one in heard)
