@@ -1,5 +1,4 @@
 # -DMAVLOOM_MINIMAL=ON: the modules that the small router has, and flags for a small program.
-include(CheckCXXSourceCompiles)
 
 set(mavloom_modules_left_out feed flight hil sim simserve view web ws)
 
@@ -10,14 +9,7 @@ add_compile_definitions(MAVLOOM_MINIMAL)
 add_link_options(LINKER:--strip-all)
 set(CMAKE_INTERPROCEDURAL_OPTIMIZATION ON)
 
-# Packs the table of addresses that the loader adjusts: 90 kB. Older loaders cannot read it.
-set(CMAKE_REQUIRED_LINK_OPTIONS "LINKER:-z,pack-relative-relocs")
-check_cxx_source_compiles("#include <features.h>
-#if !__GLIBC_PREREQ(2, 36)
-#error
-#endif
-int main() {}" MAVLOOM_CAN_PACK_RELOCATIONS)
-unset(CMAKE_REQUIRED_LINK_OPTIONS)
+include(MavloomRelocations)
 if(MAVLOOM_CAN_PACK_RELOCATIONS)
-  add_link_options(LINKER:-z,pack-relative-relocs)
+  add_link_options(${mavloom_pack_relocations})
 endif()
