@@ -223,9 +223,14 @@ static void read_report(msghdr& header, UdpSocket::Failure& failure) noexcept {
 std::optional<UdpSocket::Failure> UdpSocket::take_failure() noexcept {
     Failure failure;
     alignas(cmsghdr) std::array<std::uint8_t, 512> control;
+    // Begin of the datagram that failed. Without room for it, qemu-user reports a success each time.
+    std::uint8_t sent = 0;
+    iovec payload{&sent, sizeof sent};
     msghdr header{};
     header.msg_name = failure.to.writable();
     header.msg_namelen = Address::capacity;
+    header.msg_iov = &payload;
+    header.msg_iovlen = 1;
     header.msg_control = control.data();
     header.msg_controllen = control.size();
     if (recvmsg(fd_.get(), &header, MSG_ERRQUEUE | MSG_DONTWAIT) < 0) return std::nullopt;
