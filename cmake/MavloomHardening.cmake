@@ -8,8 +8,10 @@ set(MAVLOOM_HARDENED_CONFIGS Release RelWithDebInfo MinSizeRel)
 list(JOIN MAVLOOM_HARDENED_CONFIGS "," configs)
 set(is_hardened "$<CONFIG:${configs}>")
 
-# Locals that are not initialized read as 0. A call through a pointer must arrive at an endbr64.
-foreach(flag -fstack-protector-strong -ftrivial-auto-var-init=zero -fcf-protection)
+# Locals that are not initialized read as 0. A call through a pointer must arrive at an endbr64 (x86-64) or a bti
+# (64-bit Arm, where return addresses are signed, too).
+foreach(flag IN ITEMS -fstack-protector-strong -ftrivial-auto-var-init=zero -fcf-protection
+                      -mbranch-protection=standard)
   string(MAKE_C_IDENTIFIER "MAVLOOM_HAS${flag}" has_flag)
   check_cxx_compiler_flag(${flag} ${has_flag})
   if(${has_flag})

@@ -1,0 +1,20 @@
+# cmake -DCMAKE_TOOLCHAIN_FILE=cmake/toolchains/arm64.cmake -DMAVLOOM_ARM64_ROOT=FOLDER
+#       -DMAVLOOM_DIALECTGEN=build/release/bin/mavloom_dialectgen: a build for 64-bit Arm. tools/arm64_root.sh makes
+# FOLDER; `./run package arm64` does all. Programs of the build, such as tests, run under qemu.
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR aarch64)
+set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
+set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
+set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
+set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES MAVLOOM_ARM64_ROOT)
+set(CMAKE_SYSROOT "${MAVLOOM_ARM64_ROOT}")
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+foreach(kind LIBRARY INCLUDE PACKAGE)
+  set(CMAKE_FIND_ROOT_PATH_MODE_${kind} ONLY)
+endforeach()
+set(ENV{PKG_CONFIG_SYSROOT_DIR} "${MAVLOOM_ARM64_ROOT}")
+set(folders "${MAVLOOM_ARM64_ROOT}/usr/lib/aarch64-linux-gnu/pkgconfig" "${MAVLOOM_ARM64_ROOT}/usr/share/pkgconfig")
+list(JOIN folders ":" ENV{PKG_CONFIG_LIBDIR})
+set(CMAKE_CROSSCOMPILING_EMULATOR qemu-aarch64-static -L "${MAVLOOM_ARM64_ROOT}")
+set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE arm64)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${MAVLOOM_ARM64_ROOT}/usr/lib/aarch64-linux-gnu")

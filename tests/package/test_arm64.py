@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: MIT
+"""The Debian packages for 64-bit Arm, cross-built as by `./run package arm64`: their records, and the program under
+qemu."""
+import os
+import shutil
+import subprocess
+
+import pytest
+from test_package import BUILD, ROOT, call, frames
+
+import harness
+
+QEMU, COMPILER = "qemu-aarch64-static", "aarch64-linux-gnu-g++"
+
+pytestmark = [pytest.mark.timeout(5400),
+              pytest.mark.skipif("MAVLOOM_FULL" not in os.environ, reason="only .ci/run --full"),
+              pytest.mark.skipif(not (shutil.which(QEMU) and shutil.which(COMPILER)),
+                                 reason="packaging/arm64.list is not installed")]
+
+
+@pytest.fixture(scope="module")
+def root():
+    """Headers and libraries."""
+    folder = BUILD.parent / "arm64-root"
+    call(ROOT / "tools" / "arm64_root.sh", folder)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def packages(root, tmp_path_factory):
+    """{name: path}"""
+    build, made = BUILD.parent / "arm64", tmp_path_factory.mktemp("packages")
+    call("cmake", "--preset", "release", "-S", ROOT, "-B", build, "--toolchain", ROOT / "cmake/toolchains/arm64.cmake",
+         f"-DMAVLOOM_ARM64_ROOT={root}", f"-DMAVLOOM_DIALECTGEN={BUILD}/bin/mavloom_dialectgen",
+         "-DMAVLOOM_TESTS=OFF", "-DMAVLOOM_BENCH=OFF", "-DMAVLOOM_PYTHON=OFF")
+    call("cmake", "--build", build)
+    subprocess.run(["cpack", "--config", build / "CPackConfig.cmake", "-B", made], check=True,
+                   env={**os.environ, "PATH": f"{root}/tools:{os.environ['PATH']}"})
+    return {path.name.split("_")[0]: path for path in made.glob("*.deb")}
+
+
+def test_the_packages_are_for_arm64_and_name_their_libraries(packages):
+    assert set(packages) == {"mavloom", "libmavloom-dev"}
+    for package in packages.values():
+        assert call("dpkg-deb", "--field", package, "Architecture").strip() == "arm64"
+    depends = call("dpkg-deb", "--field", packages["mavloom"], "Depends")
+    for library in ("libc6 (>= 2.36)", "libfmt9", "libsodium23", "libncursesw6", "libstdc++6"):
+        assert library in depends, depends
+
+
+def test_lintian_finds_no_error(packages):
+    done = subprocess.run(["lintian", "--allow-root", "--fail-on", "error", *packages.values()],
+                          stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout
+
+
+def test_the_program_reads_a_flight_under_qemu(packages, root, tmp_path):
+    call("dpkg-deb", "--extract", packages["mavloom"], tmp_path)
+    ours = [harness.program_path(), "info", harness.DATA / "px4_gcs_flight.tlog", "--json"]
+    theirs = [QEMU, "-L", root, tmp_path / "usr/bin/mavloom", *ours[1:]]
+    assert call(*theirs) == call(*ours)
+
+
+def test_the_router_forwards_under_qemu(packages, root, tmp_path):
+    call("dpkg-deb", "--extract", packages["mavloom"], tmp_path)
+    vehicle, station, port = harness.udp_socket(), harness.udp_socket(), harness.free_port()
+    router = harness.Running([QEMU, "-L", root, tmp_path / "usr/bin/mavloom", "route", f"udpin://127.0.0.1:{port}",
+                              f"udpout://127.0.0.1:{station.getsockname()[1]}", "--name", f"arm-{port}"],
+                             env=harness.environment())
+    try:
+        router.wait_output("listening")
+        sent = list(frames.heartbeats(10))
+        for frame in sent:
+            vehicle.sendto(frame, ("127.0.0.1", port))
+        received = b""
+        while len(received) < sum(map(len, sent)):
+            received += station.recv(65536)
+        assert received == b"".join(sent)
+        assert router.stop().status == 130
+    finally:
+        harness.end([router])
+        vehicle.close()
+        station.close()
