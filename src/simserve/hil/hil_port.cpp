@@ -22,6 +22,9 @@ constexpr Nanoseconds introduction_limit = 1s, silence_limit = 5s;
 constexpr std::size_t most_queued_bytes = 32'768;
 constexpr Nanoseconds blocked_pause = 10ms;
 
+// A link's name without that of its endpoint, with which each line begins.
+std::string short_name(std::string_view link) { return std::string(link.substr(link.rfind('#') + 1)); }
+
 }  // namespace
 
 HilPort::HilPort(const hil::PairOptions& options, link::Links& links, const Notice& notice)
@@ -36,7 +39,7 @@ void HilPort::opened(link::EndpointId endpoint, std::string label) {
 
 void HilPort::on_link_up(LinkId link, std::string_view name) {
     if (!link_) return begin(link, name);
-    newcomers_.push_back({link, std::string(name)});
+    newcomers_.push_back({link, short_name(name)});
 }
 
 void HilPort::on_link_down(LinkId link, std::string_view why) {
@@ -48,7 +51,7 @@ void HilPort::on_link_down(LinkId link, std::string_view why) {
 
 void HilPort::begin(LinkId link, std::string_view name) {
     link_ = link;
-    peer_ = name;
+    peer_ = short_name(name);
     came_ = mono_now();
     is_stranger_ = said_silent_ = said_lost_ = said_back_ = said_double_ = false;
     pair_.begin(came_);

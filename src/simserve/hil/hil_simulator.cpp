@@ -48,7 +48,9 @@ SetupResult<void> HilSimulator::add(const flight::VehicleOptions& vehicle, const
                                           *links_, notice_);
     const auto added = fault::add(*links_, given);
     if (!added) return tl::unexpected(added.error());
-    port->opened(*added, given.label());
+    const auto opened = links_->endpoints();
+    const auto info = std::ranges::find(opened, *added, &link::EndpointInfo::id);  // with the port, if it was 0
+    port->opened(*added, info == opened.end() ? given.label() : info->label());
     ports_.push_back(std::move(port));
     return {};
 }
