@@ -35,7 +35,8 @@ Craft::Craft(const VehicleOptions& options)
       plant_(make_plant(kind_of(options), options.body)),
       pilot_(make_pilot(kind_of(options), options.body)),
       battery_(options.battery, options.autopilot == Autopilot::px4),
-      sensors_(options.has_noise, options.seed, magnetic_field(geo_of(options.home))),
+      sensors_(options.has_noise ? std::optional(options.noise) : std::nullopt, options.seed,
+               magnetic_field(geo_of(options.home))),
       wind_(options.wind, options.seed ^ wind_stream),
       frame_(geo_of(options.home)),
       air_density_(density_at(options.home.altitude_m)) {

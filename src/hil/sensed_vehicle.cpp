@@ -30,7 +30,8 @@ SensedVehicle::SensedVehicle(const flight::VehicleOptions& options, const Sensor
       step_s_(timing_of(rates).step_s),
       air_density_(flight::density_at(options.home.altitude_m)),
       plant_(flight::make_plant(options.kind, options.body)),
-      sensors_(options.has_noise, options.seed, flight::magnetic_field(place_of(options.home)), timing_of(rates)),
+      sensors_(options.has_noise ? std::optional(options.noise) : std::nullopt, options.seed,
+               flight::magnetic_field(place_of(options.home)), timing_of(rates)),
       wind_(options.wind, options.seed ^ wind_stream, step_s_),
       frame_(place_of(options.home)) {
     around_.air_density = air_density_;

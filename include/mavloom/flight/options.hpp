@@ -11,6 +11,7 @@
 #include "mavloom/base/clock.hpp"
 #include "mavloom/base/ids.hpp"
 #include "mavloom/flight/body.hpp"
+#include "mavloom/flight/noise_options.hpp"
 
 namespace mavloom::flight {
 
@@ -77,6 +78,7 @@ struct VehicleOptions {
     Limits limits{};
     std::uint64_t seed = 1;
     bool has_noise = true;
+    NoiseOptions noise{};  // if it has any
     bool has_gimbal = false;
     bool has_manual_control = false;  // simulates a remote control; without one, clients may still send MANUAL_CONTROL
     std::size_t traffic = 0;          // simulated aircraft that ADSB_VEHICLE reports

@@ -22,6 +22,11 @@ std::uint8_t Firmware::mav_type() const noexcept {
     return msg::MAV_TYPE_QUADROTOR;
 }
 
+std::uint8_t Firmware::mav_type_of(const CopterBody& body) const noexcept {
+    if (kind_ != Kind::quad || body.rotor_count == 4) return mav_type();
+    return body.rotor_count == 6 ? msg::MAV_TYPE_HEXAROTOR : msg::MAV_TYPE_OCTOROTOR;
+}
+
 const ModeInfo* Firmware::find_mode(std::uint32_t custom_mode) const noexcept {
     const auto at = std::ranges::find(modes(), custom_mode, &ModeInfo::custom_mode);
     return at == modes().end() ? nullptr : &*at;

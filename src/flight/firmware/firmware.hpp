@@ -60,7 +60,9 @@ public:
     [[nodiscard]] bool is_px4() const noexcept { return autopilot() == Autopilot::px4; }
     [[nodiscard]] virtual std::uint8_t mav_autopilot() const noexcept = 0;  // MAV_AUTOPILOT
     [[nodiscard]] Kind kind() const noexcept { return kind_; }
-    [[nodiscard]] std::uint8_t mav_type() const noexcept;  // MAV_TYPE
+    [[nodiscard]] std::uint8_t mav_type() const noexcept;  // MAV_TYPE; of a multicopter, that of a quadrotor
+    // MAV_TYPE of a vehicle with this body.
+    [[nodiscard]] std::uint8_t mav_type_of(const CopterBody& body) const noexcept;
     [[nodiscard]] virtual std::uint64_t capabilities(const VehicleOptions& options) const noexcept = 0;
     [[nodiscard]] virtual const VersionInfo& version() const noexcept = 0;
     [[nodiscard]] virtual const Texts& texts() const noexcept = 0;

@@ -21,11 +21,11 @@ private:
 };
 
 // First-order Gauss-Markov process: correlated over `tau` seconds, with steady standard deviation `sigma`. Exact for
-// any step.
+// any step. White noise if `tau` is 0.
 class GaussMarkov {
 public:
     GaussMarkov(double sigma, double tau, double dt) noexcept
-        : decay_(std::exp(-dt / tau)), drive_(sigma * std::sqrt(1 - decay_ * decay_)) {}
+        : decay_(tau > 0 ? std::exp(-dt / tau) : 0), drive_(sigma * std::sqrt(1 - decay_ * decay_)) {}
     void next(Random& random) noexcept { value_ = decay_ * value_ + drive_ * random.normal(); }
     [[nodiscard]] double value() const noexcept { return value_; }
 

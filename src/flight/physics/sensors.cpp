@@ -7,10 +7,6 @@ namespace mavloom::flight {
 
 namespace {
 
-constexpr double accelerometer_sigma = 0.1;   // m/s^2
-constexpr double gyroscope_sigma = 0.01;      // rad/s
-constexpr double pressure_sigma = 0.01;       // hPa
-constexpr double airspeed_sigma = 0.2;        // m/s
 constexpr double gyroscope_bias_rate = 1e-5;  // rad/s per square root of a second: 0.03 degrees/s in an hour
 constexpr double temperature_step = 0.1;      // K, the sensor's resolution
 constexpr double touchdown_vibration = 8;     // m/s^2
@@ -18,8 +14,6 @@ constexpr double calm_share = 0.2;            // of the noise, while motors and 
 constexpr double estimated_rate_sigma = to_radians(0.2);
 constexpr double resting_vibration = 0.02, flying_vibration = 2;  // m/s^2
 constexpr double self_heating = 3;                                // K, of the board above the air
-
-const Vector3 field_sigma{0.02, 0.02, 0.03};  // gauss
 
 std::array<SmoothWander, 3> wander(const Vector3& sigma, double tau, double dt) {
     return {SmoothWander(sigma.x(), tau, dt), SmoothWander(sigma.y(), tau, dt), SmoothWander(sigma.z(), tau, dt)};
@@ -43,17 +37,18 @@ Quaternion small_turn(const Vector3& angles) {
 
 }  // namespace
 
-// Estimate: 3 cm, which with 3 s gives 1 cm/s; roll and pitch 0.15 degrees, yaw 0.3 degrees. GPS: the correlation times
-// and deviations of PX4's simulated receiver (position: 0.76 from sample to sample, velocity: 0.54).
-Sensors::Sensors(bool has_noise, std::uint64_t seed, const Vector3& magnetic_field, const SensorTiming& timing)
+// Estimate: 3 cm, which with 3 s gives 1 cm/s; roll and pitch 0.15 degrees, yaw 0.3 degrees.
+Sensors::Sensors(const std::optional<NoiseOptions>& noise, std::uint64_t seed, const Vector3& magnetic_field,
+                 const SensorTiming& timing)
     : random_(seed),
       magnetic_field_(magnetic_field),
       timing_(timing),
-      has_noise_(has_noise),
+      has_noise_(noise.has_value()),
+      noise_(noise.value_or(NoiseOptions{})),
       position_wander_(wander(Vector3::Constant(0.03), 3, timing.step_s)),
       attitude_wander_(wander({to_radians(0.15), to_radians(0.15), to_radians(0.3)}, 2, timing.step_s)),
-      gps_position_(markov(0.025, 0.037, 0.45, gps_interval(timing))),
-      gps_velocity_(markov(0.024, 0.029, 0.2, gps_interval(timing))),
+      gps_position_(markov(noise_.gps, noise_.gps_down, noise_.gps_time, gps_interval(timing))),
+      gps_velocity_(markov(noise_.gps_velocity, noise_.gps_climb, noise_.gps_velocity_time, gps_interval(timing))),
       gyroscope_bias_{RandomWalk(gyroscope_bias_rate), RandomWalk(gyroscope_bias_rate), RandomWalk(gyroscope_bias_rate)},
       impact_(0.3, timing.step_s) {}
 
@@ -112,9 +107,9 @@ void Sensors::restart_estimate() {
 
 void Sensors::step_imu(const Kinematics& truth) {
     const Vector3 force = truth.attitude.conjugate() * (truth.acceleration - Vector3(0, 0, gravity));
-    const Vector3 shaking = noise(Vector3::Constant(accelerometer_sigma));
+    const Vector3 shaking = noise(Vector3::Constant(noise_.accelerometer));
     if (!is_frozen(failures_.accelerometer)) imu_.acceleration = force + shaking;
-    const Vector3 jitter = noise(Vector3::Constant(gyroscope_sigma));
+    const Vector3 jitter = noise(Vector3::Constant(noise_.gyroscope));
     if (!is_frozen(failures_.gyroscope)) imu_.rates = truth.rates + jitter + values(gyroscope_bias_);
 }
 
@@ -132,7 +127,7 @@ void Sensors::step_bias() {
 }
 
 void Sensors::step_magnetometer(const Quaternion& attitude) {
-    const Vector3 jitter = noise(field_sigma);
+    const Vector3 jitter = noise({noise_.magnetometer, noise_.magnetometer, noise_.magnetometer_z});
     if (is_frozen(failures_.magnetometer)) return;
     Vector3 field = magnetic_field_;
     if (deceptions_.compass_turn != 0)
@@ -141,7 +136,7 @@ void Sensors::step_magnetometer(const Quaternion& attitude) {
 }
 
 void Sensors::step_barometer(const Kinematics& truth, const Vector3& air_velocity, double altitude, double air_density) {
-    const Vector3 jitter = noise({pressure_sigma, airspeed_sigma, 0});
+    const Vector3 jitter = noise({noise_.pressure / 100, noise_.airspeed, 0});
     const double reading = has_noise_ ? random_.uniform(-temperature_step / 2, temperature_step / 2) : 0;
     const double along = (truth.attitude.conjugate() * air_velocity).x() + jitter.y();
     step_airspeed(along, air_density);

@@ -6,11 +6,14 @@
 // The magnitudes are those of PX4's built-in simulator (docs/design/simulator.md).
 #pragma once
 
+#include <optional>
+
 #include "flight/physics/estimate_error.hpp"
 #include "flight/physics/failures.hpp"
 #include "flight/physics/geodesy.hpp"
 #include "flight/physics/noise.hpp"
 #include "flight/plant/plant.hpp"
+#include "mavloom/flight/noise_options.hpp"
 
 namespace mavloom::flight {
 
@@ -52,8 +55,10 @@ struct SensorSamples {
 
 class Sensors {
 public:
-    // `magnetic_field` in gauss; north, east, down. It does not change: vehicles do not fly far.
-    Sensors(bool has_noise, std::uint64_t seed, const Vector3& magnetic_field, const SensorTiming& timing = {});
+    // Without `noise`, measurements are exact. `magnetic_field` in gauss; north, east, down. It does not change:
+    // vehicles do not fly far.
+    Sensors(const std::optional<NoiseOptions>& noise, std::uint64_t seed, const Vector3& magnetic_field,
+            const SensorTiming& timing = {});
 
     // Call it after each step of the plant, and once before the first. `origin_altitude` is the altitude (AMSL, m)
     // of the local origin.
@@ -106,6 +111,7 @@ private:
     SensorTiming timing_;
     SensorSamples samples_;
     bool has_noise_, gps_acquired_ = false;
+    NoiseOptions noise_;
     Failures failures_;
     Deceptions deceptions_;
     bool is_deceived_ = false;  // or was, and the estimate still is

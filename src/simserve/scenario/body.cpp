@@ -11,9 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "mavloom/base/shown.hpp"
-#include "mavloom/dialect/terms.hpp"
-#include "simserve/scenario/values.hpp"
+#include "simserve/scenario/named_numbers.hpp"
 
 namespace mavloom::simserve {
 
@@ -23,12 +21,7 @@ using sim::CopterBody;
 
 tl::unexpected<SetupError> body_error(std::string text) { return setup_error(SetupCode::usage, std::move(text)); }
 
-// A key that sets one number of the body.
-struct Number {
-    std::string_view name;
-    Range range;
-    double& (*of)(CopterBody&);
-};
+using Number = NamedNumber<CopterBody>;
 constexpr Range share{0, 1}, lag{0, 0.06}, any_drag{0, 100}, any_inertia{1e-5, 100};
 constexpr std::array numbers{
     Number{"mass", {0.05, 500}, [](CopterBody& b) -> double& { return b.mass_kg; }},
@@ -48,38 +41,8 @@ constexpr std::array numbers{
 };
 constexpr Range arm_range{0.02, 10};  // m
 
-using Part = std::pair<std::string_view, std::string_view>;
-
-// The parts of the text in their order. A first part without a name is the preset's.
-SetupResult<std::vector<Part>> parts_of(std::string_view text) {
-    std::vector<Part> parts;
-    const auto add = [&](std::string_view term) -> SetupResult<void> {
-        const auto colon = term.find(':');
-        if (colon == std::string_view::npos && !parts.empty())
-            return body_error(fmt::format("{} is not NAME:VALUE", in_quotes(term)));
-        if (colon == std::string_view::npos) parts.emplace_back("preset", term);
-        else parts.emplace_back(term.substr(0, colon), term.substr(colon + 1));
-        return {};
-    };
-    if (auto done = dialect::for_each_term(text, add); !done) return tl::unexpected(std::move(done.error()));
-    return parts;
-}
-
-std::optional<std::string_view> find(const std::vector<Part>& parts, std::string_view name) {
-    const auto part = std::ranges::find(parts, name, &Part::first);
-    return part == parts.end() ? std::nullopt : std::optional(part->second);
-}
-
-SetupResult<CopterBody> preset_of(const std::vector<Part>& parts) {
-    const auto name = find(parts, "preset");
-    if (!name) return CopterBody{};
-    const auto index = parse_choice(*name, sim::body_names);
-    if (!index) return tl::unexpected(SetupError(index.error()).within("preset"));
-    return body_of(static_cast<sim::BodyPreset>(*index));
-}
-
-SetupResult<void> place_rotors(CopterBody& body, const std::vector<Part>& parts) {
-    const auto frame = find(parts, "frame"), arm = find(parts, "arm");
+SetupResult<void> place_rotors(CopterBody& body, const std::vector<NamedPart>& parts) {
+    const auto frame = find_part(parts, "frame"), arm = find_part(parts, "arm");
     if (!frame && !arm) return {};
     const auto index = parse_choice(frame.value_or(sim::frame_names[0]), sim::frame_names);
     if (!index) return tl::unexpected(SetupError(index.error()).within("frame"));
@@ -90,21 +53,6 @@ SetupResult<void> place_rotors(CopterBody& body, const std::vector<Part>& parts)
         length = *value;
     }
     set_frame(body, static_cast<sim::Frame>(*index), length);
-    return {};
-}
-
-SetupResult<void> set_numbers(CopterBody& body, const std::vector<Part>& parts) {
-    std::vector<std::string_view> names{"preset", "frame", "arm"};
-    for (const Number& number : numbers) names.push_back(number.name);
-    for (const auto& [name, text] : parts) {
-        const auto known = parse_choice(name, names);
-        if (!known) return tl::unexpected(known.error());
-        if (*known < 3) continue;
-        const Number& number = numbers[*known - 3];
-        const auto value = parse_number(text, number.range);
-        if (!value) return tl::unexpected(SetupError(value.error()).within(number.name));
-        number.of(body) = *value;
-    }
     return {};
 }
 
@@ -133,13 +81,15 @@ SetupResult<void> check_body(const CopterBody& body) {
 }  // namespace
 
 SetupResult<sim::CopterBody> parse_body(std::string_view text) {
-    const auto parts = parts_of(text);
+    const auto parts = named_parts_of(text);
     if (!parts) return tl::unexpected(parts.error());
-    auto body = preset_of(*parts);
-    if (!body) return body;
-    if (auto done = place_rotors(*body, *parts); !done) return tl::unexpected(std::move(done.error()));
-    if (auto done = set_numbers(*body, *parts); !done) return tl::unexpected(std::move(done.error()));
-    if (auto done = check_body(*body); !done) return tl::unexpected(std::move(done.error()));
+    const auto preset = preset_index(*parts, sim::body_names);
+    if (!preset) return tl::unexpected(preset.error());
+    CopterBody body = body_of(static_cast<sim::BodyPreset>(*preset));
+    if (auto done = place_rotors(body, *parts); !done) return tl::unexpected(std::move(done.error()));
+    if (auto done = set_named_numbers<CopterBody>(body, *parts, numbers, {"preset", "frame", "arm"}); !done)
+        return tl::unexpected(std::move(done.error()));
+    if (auto done = check_body(body); !done) return tl::unexpected(std::move(done.error()));
     return body;
 }
 

@@ -14,6 +14,7 @@
 #include "mavloom/endpoint/grammar.hpp"
 #include "simserve/scenario/body.hpp"
 #include "simserve/scenario/hil.hpp"
+#include "simserve/scenario/noise.hpp"
 #include "simserve/scenario/time_line.hpp"
 #include "simserve/scenario/values.hpp"
 
@@ -159,7 +160,7 @@ constexpr std::array<Key<ScenarioVehicle>, 15> all_vehicle_keys{{
     {"gimbal", "false", [](ScenarioVehicle& v, Text t) { return put(parse_bool(t), v.options.has_gimbal); }},
     {"traffic", "0", [](ScenarioVehicle& v, Text t) { return put(parse_integer(t, 0, max_traffic), v.options.traffic); }},
     {"logs", "2", [](ScenarioVehicle& v, Text t) { return put(parse_integer(t, 0, max_logs), v.options.logs); }},
-    {"noise", "true", [](ScenarioVehicle& v, Text t) { return put(parse_bool(t), v.options.has_noise); }},
+    {"noise", "true", [](ScenarioVehicle& v, Text t) { return set_noise(t, v.options); }},
     {"ready_after", "2.5s", set_ready_after},
     {"parameters", "", [](ScenarioVehicle& v, Text t) { return put(parse_pairs(t), v.parameters); }},
 }};

@@ -41,7 +41,7 @@ protected:
         }
     }
 
-    Sensors sensors{true, 7, field};
+    Sensors sensors{NoiseOptions{}, 7, field};
     Kinematics truth;
     Vector3 air = Vector3::Zero();
     bool at_rest = false;
@@ -62,7 +62,7 @@ TEST_F(SensorsTest, AccelerometersOfALevelVehicleShowGravityUpwards) {
 }
 
 TEST_F(SensorsTest, AccelerometersShowTheSpecificForceInTheBodyFrame) {
-    Sensors quiet(false, 1, field);
+    Sensors quiet(std::nullopt, 1, field);
     truth.attitude = to_quaternion({0, 0, pi / 2});
     truth.acceleration = {0, 3, 0};  // east, which is ahead
     quiet.step(truth, air, false, zurich, 1.2);
@@ -71,7 +71,7 @@ TEST_F(SensorsTest, AccelerometersShowTheSpecificForceInTheBodyFrame) {
 }
 
 TEST_F(SensorsTest, TheMagnetometerTurnsWithTheVehicle) {
-    Sensors quiet(false, 1, field);
+    Sensors quiet(std::nullopt, 1, field);
     truth.attitude = to_quaternion({0, 0, pi / 2});
     quiet.step(truth, air, false, zurich, 1.2);
 
@@ -85,7 +85,7 @@ TEST_F(SensorsTest, TheBarometerFollowsTheStandardAtmosphere) {
     EXPECT_NEAR(pressure.mean(), 955.822, 0.003);
     EXPECT_NEAR(pressure.deviation(), 0.01, 0.002);
 
-    Sensors quiet(false, 1, field);
+    Sensors quiet(std::nullopt, 1, field);
     truth.position.z() = -100;
     quiet.step(truth, air, false, zurich, 1.2);
     EXPECT_NEAR(quiet.imu().pressure_altitude, 589.4, 1e-6);
@@ -169,6 +169,25 @@ TEST_F(SensorsTest, FailuresRemoveTheSensor) {
     EXPECT_NE(sensors.imu().magnetic, magnetic);
 }
 
+TEST_F(SensorsTest, NoiseHasThePresetsFigures) {
+    Sensors jmavsim(noise_of(NoisePreset::jmavsim), 7, field);
+    jmavsim.acquire_gps(true);
+    Statistics force, magnetic, pressure, position, velocity;
+    for (int i = 0; i < 250 * 120; ++i) {
+        jmavsim.step(truth, air, false, zurich, 1.2);
+        force.add(jmavsim.imu().acceleration.x());
+        magnetic.add(jmavsim.imu().magnetic.z());
+        pressure.add(jmavsim.imu().pressure_hpa);
+        position.add(jmavsim.gps().position.x());
+        velocity.add(jmavsim.gps().velocity.x());
+    }
+    EXPECT_NEAR(force.deviation(), 0.05, 0.002);
+    EXPECT_NEAR(magnetic.deviation(), 0.005, 0.0003);
+    EXPECT_NEAR(pressure.deviation(), 0.0115, 0.0008);
+    EXPECT_NEAR(position.deviation(), 0.01, 0.002);
+    EXPECT_NEAR(velocity.deviation(), 0, 1e-12);
+}
+
 TEST_F(SensorsTest, AWrongReceiverKeepsItsPositionAndLosesItsFix) {
     sensors.acquire_gps(true);
     truth.position = {30, 0, 0};
@@ -185,7 +204,7 @@ TEST_F(SensorsTest, AWrongReceiverKeepsItsPositionAndLosesItsFix) {
 
 // 0.5 * 1.2 kg/m^3 * (20 m/s)^2 = 240 Pa. A blocked pitot tube passes 30 %.
 TEST_F(SensorsTest, ABlockedPitotTubePassesLessWithinASecond) {
-    Sensors exact(false, 7, field);
+    Sensors exact(std::nullopt, 7, field);
     air = {20, 0, 0};
     const auto fly = [&](double seconds) {
         for (long i = std::lround(seconds / step_s); i > 0; --i) exact.step(truth, air, false, zurich, 1.2);
@@ -237,7 +256,7 @@ TEST_F(SensorsTest, ABarometerThatReadsTooHighLiftsTheEstimate) {
 }
 
 TEST_F(SensorsTest, ATurnedCompassShowsAnotherHeading) {
-    Sensors exact(false, 7, {0.2, 0, 0.4});
+    Sensors exact(std::nullopt, 7, {0.2, 0, 0.4});
     exact.set_deceptions({.compass_turn = to_radians(30)});
     exact.step(truth, air, false, zurich, 1.2);
     const Vector3& measured = exact.imu().magnetic;
@@ -246,7 +265,7 @@ TEST_F(SensorsTest, ATurnedCompassShowsAnotherHeading) {
 }
 
 TEST_F(SensorsTest, TheSameSeedGivesTheSameNoise) {
-    Sensors same(true, 7, field), other(true, 8, field);
+    Sensors same(NoiseOptions{}, 7, field), other(NoiseOptions{}, 8, field);
     for (int i = 0; i < 1000; ++i) {
         sensors.step(truth, air, false, zurich, 1.2);
         same.step(truth, air, false, zurich, 1.2);

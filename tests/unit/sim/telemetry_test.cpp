@@ -532,6 +532,17 @@ TEST_F(TelemetryInFlight, AllMessagesOfAnInstantAgree) {
     EXPECT_FALSE(rig.vehicle.status().armed) << "it has landed";
 }
 
+// MAV_TYPE_HEXAROTOR is 13, MAV_TYPE_OCTOROTOR 14, MAV_TYPE_QUADROTOR 2.
+TEST(TelemetryOfBodies, NamesTheKindOfMulticopter) {
+    for (const auto& [frame, type] : {std::pair{Frame::hexa_x, 13}, {Frame::octo_plus, 14}, {Frame::quad_plus, 2}}) {
+        VehicleOptions options;
+        set_frame(options.body, frame, 0.3);
+        Rig rig(options);
+        rig.run(1.0);
+        EXPECT_EQ(rig.last<msg::Heartbeat>()->type, type);
+    }
+}
+
 TEST_F(TelemetryInFlight, AFailedReceiverShowsInAllItsMessagesUntilItWorksAgain) {
     rig.run(4.0);
     ASSERT_TRUE(rig.vehicle.take_off(10));

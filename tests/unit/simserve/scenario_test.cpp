@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "simserve/scenario/body.hpp"
+#include "simserve/scenario/noise.hpp"
 #include "simserve/scenario/values.hpp"
 
 namespace mavloom::simserve {
@@ -48,6 +49,23 @@ TEST(Scenario, OptionsComeBeforeTheEnvironmentAndThatBeforeTheFile) {
     EXPECT_EQ(sut.speed, 4);
     EXPECT_EQ(sut.duration, 6s);
     EXPECT_EQ(sut.vehicles[0].options.kind, sim::Kind::rover);
+}
+
+TEST(Scenario, SetsTheNoiseByNameAndFigure) {
+    const auto noise_in = [](std::string_view text) {
+        return read(fmt::format("[[vehicle]]\nnoise = {}\n", text)).vehicles[0].options;
+    };
+    EXPECT_TRUE(noise_in("true").has_noise);
+    EXPECT_FALSE(noise_in("false").has_noise);
+    EXPECT_EQ(noise_in("\"jmavsim\"").noise.accelerometer, 0.05);
+    const auto own = noise_in("{preset = \"gazebo\", gps = 1.5}");
+    EXPECT_TRUE(own.has_noise);
+    EXPECT_EQ(own.noise.gps, 1.5);
+    EXPECT_EQ(own.noise.gps_down, 0.006);
+    sim::VehicleOptions options;
+    EXPECT_THAT(set_noise("gazeb", options).error().text, HasSubstr("did you mean 'gazebo'"));
+    EXPECT_THAT(set_noise("preset:sih,gsp:1", options).error().text, HasSubstr("did you mean 'gps'"));
+    EXPECT_THAT(set_noise("gps:-1", options).error().text, HasSubstr("gps"));
 }
 
 // `mavloom check` passed it, and the simulator did not start.
