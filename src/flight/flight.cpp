@@ -39,6 +39,10 @@ void Flight::step() {
     context_.craft.step(navigator_.guidance().setpoint(), context_.armed);
 }
 
+unsigned Flight::steps_to_change() const noexcept {
+    return (navigation_period - steps_ % navigation_period) % navigation_period + 1;
+}
+
 void Flight::supervise() {
     const Guidance& guidance = navigator_.guidance();
     detector_.update({guidance.is_climbing(), guidance.is_landing(), navigator_.is_home()});

@@ -45,6 +45,8 @@ public:
 
     // Advances by one step of 4 ms.
     void step();
+    // How many steps from now, at least 1, the next one that may change modes, landed state and texts will be over.
+    [[nodiscard]] unsigned steps_to_change() const noexcept;
     // Sets the real time of the steps and inputs that follow. Time-outs of repeated inputs use it. Without this call,
     // they use the flight time.
     void set_real_time(MonoTime now) noexcept;

@@ -81,6 +81,8 @@ FlightTime Vehicle::next_due() const noexcept {
     const Parts& parts = *parts_;
     if (parts.silent_until() != FlightTime::min()) return parts.silent_until();
     FlightTime due = std::min(parts.streams.next_due(), parts.next_pump());
+    if (parts.options.wakes_for_changes)
+        return std::min(due, parts.stepped + parts.flight.steps_to_change() * step_time);
     return std::min(due, parts.stepped + (parts.may_change_by_itself() ? longest_pause : longest_rest));
 }
 

@@ -176,6 +176,7 @@ void Connections::on_link_up(LinkId link, link::EndpointId endpoint, std::string
     if (state.lines.spend()) parts_.notice(config::LogLevel::info, fmt::format("{}: up", name));
     if (state.is_one_link) return;
     if (state.ring) states_[*state.ring].link = link;
+    (void)parts_.catch_up();
     open(link, state.rates, name);
 }
 
@@ -203,6 +204,8 @@ void Connections::on_frame(const link::RxFrame& rx) {
     ++frames_received_;
     const auto state = states_.find(rx.endpoint);
     if (state == states_.end() || (state->second.is_one_link && !state->second.link)) return;
+    if (!parts_.catch_up()) return;
+    parts_.received.write(parts_.options.utc_at_start + now().flight, rx.frame);
     parts_.fleet.receive(state->second.link.value_or(rx.link), rx.frame, rx.info, now());
 }
 

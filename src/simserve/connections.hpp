@@ -33,10 +33,12 @@ public:
         const FlightClock& clock;
         SharedMemory& shared;
         FlightRecording& recording;
+        FlightRecording& received;  // gets what partners send
         SlowLines& lines;
         Fleet& fleet;
         const SimulatorOptions& options;
         const Simulator::Notice& notice;
+        std::function<bool()> catch_up;  // in a repeatable session: flies until now; false: the flight has ended
     };
     explicit Connections(const Parts& parts) : parts_(parts) {}
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The recording of what the vehicles send, with the times of the flight clock. Private to module simserve; single owner
-// thread. It waits for the disk, so a slow disk slows the simulator down, and no frame is lost.
+// A recording of what the vehicles send or receive, with the times of the flight clock. Private to module simserve;
+// single owner thread. It waits for the disk, so a slow disk slows the simulator down, and no frame is lost.
 #pragma once
 
 #include <cstdint>
@@ -28,6 +28,7 @@ public:
         return {};
     }
 
+    [[nodiscard]] bool is_open() const noexcept { return writer_.has_value(); }
     // The link whose frames it records; LinkId{} if there is none.
     [[nodiscard]] LinkId link() const noexcept { return link_; }
     [[nodiscard]] std::string label() const { return writer_ ? writer_->path().string() : std::string(); }

@@ -14,6 +14,7 @@
 #include "simserve/fleet.hpp"
 #include "simserve/flight_clock.hpp"
 #include "simserve/flight_recording.hpp"
+#include "simserve/input_replay.hpp"
 #include "simserve/link_sink.hpp"
 #include "simserve/scenario/time_line.hpp"
 #include "simserve/shared_memory.hpp"
@@ -28,6 +29,7 @@ namespace {
 
 SimulatorOptions dated(SimulatorOptions options) {
     if (options.utc_at_start == WallTime{}) options.utc_at_start = wall_now();
+    if (options.is_repeatable) options.utc_at_start = std::chrono::floor<std::chrono::seconds>(options.utc_at_start);
     return options;
 }
 
@@ -44,10 +46,15 @@ Simulator::Simulator(const dialect::Dialect& dialect, const SimulatorOptions& op
       time_line_(std::make_unique<TimeLine>(options.orders)),
       shared_(std::make_unique<SharedMemory>()),
       recording_(std::make_unique<FlightRecording>()),
-      sink_(std::make_unique<LinkSink>(*links_, *clock_, options_.utc_at_start, *shared_, *recording_)),
+      received_(std::make_unique<FlightRecording>()),
+      input_(std::make_unique<InputReplay>()),
+      sink_(std::make_unique<LinkSink>(*links_, *clock_, options_.utc_at_start, *shared_, *recording_, *input_)),
       fleet_(std::make_unique<Fleet>(*sink_)),
       connections_(std::make_unique<Connections>(Connections::Parts{dialect_, *links_, *clock_, *shared_, *recording_,
-                                                                    sink_->lines(), *fleet_, options_, notice_})) {}
+                                                                    *received_, sink_->lines(), *fleet_, options_,
+                                                                    notice_, [this] { return catch_up(); }})) {
+    if (options_.is_repeatable) clock_->make_exact();
+}
 
 Simulator::~Simulator() { shared_->close(); }  // stops the thread that may call post()
 
@@ -76,11 +83,20 @@ SetupResult<void> Simulator::open_recording(const std::filesystem::path& path) {
     return opened;
 }
 
+SetupResult<void> Simulator::open_input_recording(const std::filesystem::path& path) {
+    return received_->open(path, LinkId{});
+}
+
+SetupResult<void> Simulator::open_input(const std::filesystem::path& path) {
+    return input_->open(path, dialect_.wire_table(), options_.utc_at_start);
+}
+
 SetupResult<void> Simulator::open_page(const std::string& name) { return shared_->open_page(name); }
 
 SetupResult<void> Simulator::add(const sim::VehicleOptions& options, Parameters parameters) {
     sim::VehicleOptions dated = options;
     if (dated.utc_at_start == WallTime{}) dated.utc_at_start = options_.utc_at_start;
+    dated.wakes_for_changes = options_.is_repeatable;
     if (auto added = fleet_->add(dated, clock_->at(mono_now())); !added) return added;
     sim::Vehicle& vehicle = *fleet_->find(options.system);
     for (const auto& [name, value] : parameters)
@@ -115,10 +131,15 @@ void Simulator::turn(MonoTime deadline) {
 
 MonoTime Simulator::next_due() const {
     if (has_ended()) return MonoTime::max();
-    return clock_->when(std::min({fleet_->next_due(), time_line_->next_due(), options_.flight_end}));
+    return clock_->when(std::min(next_event(), options_.flight_end));
+}
+
+sim::FlightTime Simulator::next_event() const {
+    return std::min({fleet_->next_due(), time_line_->next_due(), input_->next_due()});
 }
 
 void Simulator::fly() {
+    if (clock_->is_exact() && !clock_->is_free()) return fly_until(clock_->target(mono_now()));
     if (!clock_->is_free()) {
         const auto now = clock_->at(mono_now());
         fleet_->advance(now);
@@ -127,23 +148,54 @@ void Simulator::fly() {
     // Partners get each step before the next one, or the queues would keep only the newest values.
     const MonoTime end = mono_now() + (connections_->has_partners() ? 0ms : 1ms);
     while (!clock_->is_paused() && !has_ended()) {
-        fly_to(std::min({fleet_->next_due(), time_line_->next_due(), options_.flight_end}));
+        fly_to(std::max(std::min(next_event(), options_.flight_end), flight_time()));
         if (mono_now() >= end) return;
     }
 }
 
-// Only if the clock is free or paused.
+// A free clock does not wait for partners.
+bool Simulator::catch_up() {
+    if (!clock_->is_exact()) return true;
+    if (!clock_->is_free()) fly();
+    return !has_ended();
+}
+
+// Only if the clock is exact.
+void Simulator::fly_until(sim::FlightTime target) {
+    if (clock_->is_paused()) return;
+    const auto end = std::max(std::min(target, options_.flight_end), flight_time());
+    for (auto at = next_event(); at <= end && !has_ended(); at = next_event()) fly_to(std::max(at, flight_time()));
+    if (!has_ended()) fly_to(end);
+}
+
+// Only if the clock is free, exact or paused.
 void Simulator::fly_to(sim::FlightTime flight) {
     clock_->set(flight);
     const auto now = clock_->at(mono_now());
     fleet_->advance(now);
     run_orders(now);
+    if (input_->next_due() <= flight) play_input(now);
+}
+
+// One frame: what it makes due comes before the next one.
+void Simulator::play_input(sim::Moment now) {
+    const auto& record = input_->next();
+    LinkId link = input_->link_of(record.frame.source());
+    if (link == LinkId{}) {
+        link = links_->take_link_id();
+        input_->set_link(record.frame.source(), link);
+        fleet_->open(link, {}, now);
+    }
+    fleet_->receive(link, record.frame, record.info, now);
+    input_->advance();
 }
 
 void Simulator::run_orders(sim::Moment now) {
     while (time_line_->next_due() <= now.flight) {
         const auto& order = time_line_->take();
+        runs_orders_ = true;
         const auto error = error_of(answer(order.request));
+        runs_orders_ = false;
         if (error.empty()) continue;
         ++refused_orders_;
         notice_(config::LogLevel::warning,
@@ -154,17 +206,22 @@ void Simulator::run_orders(sim::Moment now) {
 sim::FlightTime Simulator::flight_time() const { return clock_->at(mono_now()).flight; }
 
 bool Simulator::has_ended() const {
-    return recording_->error() || (clock_->is_free() && flight_time() >= options_.flight_end);
+    const bool counts_time = clock_->is_free() || clock_->is_exact();
+    return recording_->error() || received_->error() || input_->error() ||
+           (counts_time && flight_time() >= options_.flight_end);
 }
 
-void Simulator::pause() { clock_->pause(mono_now()); }
+void Simulator::pause() {
+    (void)catch_up();
+    clock_->pause(mono_now());
+}
 void Simulator::resume() { clock_->resume(mono_now()); }
 bool Simulator::is_paused() const { return clock_->is_paused(); }
 
 bool Simulator::step(Nanoseconds time) {
     if (!clock_->is_paused()) return false;
     const auto end = std::min(flight_time() + std::clamp(time, Nanoseconds{}, max_step), options_.flight_end);
-    const auto next = [&] { return std::max(std::min(fleet_->next_due(), time_line_->next_due()), flight_time()); };
+    const auto next = [&] { return std::max(next_event(), flight_time()); };
     for (auto at = next(); at < end; at = next()) {
         fly_to(at);
         links_->turn(*connections_, MonoTime{});
@@ -178,13 +235,17 @@ SetupResult<void> Simulator::finish(Nanoseconds limit) {
     while (!posted_->empty()) posted_->run_one();
     connections_->close_inlet();
     shared_->close();
-    return recording_->close();
+    const auto received = received_->close();
+    if (auto closed = recording_->close(); !closed) return closed;
+    if (input_->error()) return tl::unexpected(*input_->error());
+    return received;
 }
 
 void Simulator::maintain(MonoTime now) {
     maintain_due_ = now + maintain_interval;
     connections_->refill_lines();
     recording_->flush();
+    received_->flush();
     for (const auto& text : shared_->maintain(*links_)) notice_(config::LogLevel::warning, text);
 }
 
@@ -215,6 +276,10 @@ std::vector<sim::Vehicle*> Simulator::vehicles() const {
 }
 
 SetupResult<void> Simulator::give(sim::Vehicle& vehicle, const Order& order) {
+    if (received_->is_open() && !runs_orders_ && !std::exchange(has_warned_, true))
+        notice_(config::LogLevel::warning,
+                "orders by ctl are not among the recorded inputs; put them into the time line");
+    if (!runs_orders_) (void)catch_up();
     const sim::Moment now = clock_->at(mono_now());
     vehicle.advance(now);
     auto done = order(vehicle);

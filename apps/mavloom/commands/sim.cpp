@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -75,6 +76,10 @@ constexpr KeyOption key_options[] = {
      "TIME"},
     {"--record", "sim", "record", "record what the vehicles send, with the times of the flight clock; opens no port",
      "FILE.tlog"},
+    {"--record-input", "sim", "record_input", "record what clients send, so that the session can be repeated",
+     "FILE.tlog"},
+    {"--replay-input", "sim", "replay_input", "play what clients sent in such a session, with its --start-time",
+     "FILE.tlog"},
     {"--report", "sim", "report", "at the end, print how well each stream kept its rate", nullptr},
     {"--ring", "sim", "ring", "also write all frames of the vehicles into the ring /dev/shm/mavloom.NAME", "NAME"},
     {"--name", "sim", "name", "name for `mavloom ctl` and `stat` (default: the name of the ring, or sim)", "NAME"},
@@ -146,7 +151,8 @@ SetupResult<Scenario> make_scenario(const SimOptions& options) {
     if (auto good = simserve::complete_hil(*scenario, document, config::environment_of(environ, simserve::px4_prefix));
         !good)
         return tl::unexpected(std::move(good.error()));
-    if (!scenario->hil && scenario->endpoints.empty() && scenario->ring.name.empty() && scenario->recording.empty())
+    const bool is_alone = scenario->hil || (!scenario->recording.empty() && scenario->input_recording.empty());
+    if (scenario->endpoints.empty() && scenario->ring.name.empty() && !is_alone)
         scenario->endpoints.push_back({*endpoint::parse_endpoint(usual_destination)});
     return scenario;
 }
@@ -186,7 +192,7 @@ Exit print_report(const SimOptions& options, const Scenario& scenario, const Sim
 
 void fly(const Scenario& scenario, Simulator& simulator) {
     auto manager = control::ServiceManager::from_environment();
-    const bool ends_by_clock = scenario.duration && scenario.speed != simserve::max_speed;
+    const bool ends_by_clock = scenario.duration && scenario.speed != simserve::max_speed && !scenario.is_repeatable();
     const MonoTime end = ends_by_clock ? mono_now() + *scenario.duration : MonoTime::max();
     manager.ready();
     while (!Signals::received() && !simulator.has_ended() && mono_now() < end) {
@@ -197,7 +203,8 @@ void fly(const Scenario& scenario, Simulator& simulator) {
 }
 
 sim::FlightTime flight_end_of(const Scenario& scenario) {
-    return scenario.speed == simserve::max_speed && scenario.duration ? *scenario.duration : sim::FlightTime::max();
+    const bool is_of_flight = scenario.speed == simserve::max_speed || scenario.is_repeatable();
+    return is_of_flight && scenario.duration ? *scenario.duration : sim::FlightTime::max();
 }
 
 SetupResult<std::unique_ptr<Simulator>> make_simulator(const Common& common, const Scenario& scenario,
@@ -212,7 +219,8 @@ SetupResult<std::unique_ptr<Simulator>> make_simulator(const Common& common, con
                                         .orders = scenario.orders,
                                         .profile = scenario.profile,
                                         .rates = scenario.rates,
-                                        .keeps_reports = scenario.has_report},
+                                        .keeps_reports = scenario.has_report,
+                                        .is_repeatable = scenario.is_repeatable()},
                                        notice);
     if (!simulator) return simulator;
     if (auto opened = open_shared(common, scenario, **simulator); !opened)
@@ -220,6 +228,12 @@ SetupResult<std::unique_ptr<Simulator>> make_simulator(const Common& common, con
     if (!scenario.recording.empty())
         if (auto opened = (*simulator)->open_recording(scenario.recording); !opened)
             return tl::unexpected(std::move(opened.error()));
+    if (!scenario.input_recording.empty())
+        if (auto opened = (*simulator)->open_input_recording(scenario.input_recording); !opened)
+            return tl::unexpected(std::move(opened.error()));
+    if (!scenario.input.empty())
+        if (auto opened = (*simulator)->open_input(scenario.input); !opened)
+            return tl::unexpected(of_input_file(std::move(opened.error())));
     for (const auto& vehicle : scenario.each_vehicle())
         if (auto added = (*simulator)->add(vehicle.options, vehicle.parameters); !added)
             return tl::unexpected(std::move(added.error()));
@@ -259,6 +273,10 @@ Exit simulate(const Common& common, const SimOptions& options) {
     fly(*scenario, **simulator);
     if (const auto finished = (*simulator)->finish(sim_send_limit); !finished) return fail(finished.error());
     if (!scenario->recording.empty()) log_recording(common, *scenario, **simulator);
+    if (!scenario->input_recording.empty())
+        print_notice(
+            common, fmt::format("{}: play it with --replay-input and --start-time {:%FT%TZ}", scenario->input_recording,
+                                std::chrono::floor<std::chrono::seconds>((*simulator)->options().utc_at_start)));
     return Signals::status(
         print_report(options, *scenario, **simulator, (*simulator)->refused_orders() == 0 ? Exit::done : Exit::failed));
 }

@@ -85,6 +85,9 @@ struct VehicleOptions {
     std::size_t logs = 2;             // recorded logs that can be downloaded
     // Time from boot until GPS, position and home are valid.
     Nanoseconds ready_after = std::chrono::milliseconds{2500};
+    // It wakes with each step that may change what it reports, so that no stream decides when a change is reported. The
+    // same inputs then give the same bytes on a link, whatever other links there are.
+    bool wakes_for_changes = false;
     CopterBody body{};        // of a quad
     WallTime utc_at_start{};  // UTC at flight time 0; the epoch means that UTC is unknown
 };

@@ -39,6 +39,7 @@ struct Scenario {
     std::optional<Nanoseconds> duration{};  // empty: until a signal; at `max_speed`, of the flight
     WallTime start_time{};                  // UTC at flight time 0; the epoch: when the simulator starts
     std::string recording;                  // path of the tlog file that the vehicles send to; empty: none
+    std::string input_recording, input;     // paths of tlog files: what they receive is written; is read
     std::vector<TimedOrder> orders{};
     bool has_report = false;
     config::RingConfig ring{};  // without a name: no ring
@@ -57,6 +58,8 @@ struct Scenario {
     [[nodiscard]] std::string control_name() const;
     // The endpoint of each vehicle's autopilot, in the order of `each_vehicle`: the ports follow each other.
     [[nodiscard]] std::vector<endpoint::Endpoint> hil_endpoints() const;
+    // See SimulatorOptions.
+    [[nodiscard]] bool is_repeatable() const noexcept { return !input_recording.empty() || !input.empty(); }
 };
 
 using config::Override;

@@ -33,6 +33,7 @@ class Connections;
 class Fleet;
 class FlightClock;
 class FlightRecording;
+class InputReplay;
 class LinkSink;
 class SharedMemory;
 class TimeLine;
@@ -64,6 +65,9 @@ struct SimulatorOptions {
     std::optional<sim::Profile> profile{};  // empty: the usual profile of each vehicle's autopilot
     std::vector<sim::MessageRate> rates{};  // each replaces the profile's rate of that message
     bool keeps_reports = false;             // keeps the reports of links that are gone
+    // The session can be repeated: whatever the speed, all steps are made in their order and none late, and protocol
+    // time-outs run by the flight clock.
+    bool is_repeatable = false;
 };
 
 // How well the streams of one link kept their rates.
@@ -106,6 +110,11 @@ public:
     // Records what the vehicles send into this tlog file, with the times of the flight clock, whatever its speed. The
     // recording is a link. It waits for the disk. Call it before the first turn.
     [[nodiscard]] SetupResult<void> open_recording(const std::filesystem::path& path);
+    // Records what the vehicles receive into this tlog file, with the times of the flight clock. Only if the session is
+    // repeatable.
+    [[nodiscard]] SetupResult<void> open_input_recording(const std::filesystem::path& path);
+    // Plays such a recording. Its session began at the same UTC.
+    [[nodiscard]] SetupResult<void> open_input(const std::filesystem::path& path);
     // Opens a counter page of this name. Call it only if there is no ring.
     [[nodiscard]] SetupResult<void> open_page(const std::string& name);
     using Parameters = std::span<const std::pair<std::string, double>>;
@@ -123,10 +132,10 @@ public:
 
     // Runs one turn: waits until a vehicle is due, something arrives, or `deadline`, and handles all of it.
     void turn(MonoTime deadline);
-    // Sends what is queued, for at most `limit`, removes the ring, and closes the recording. Reports stay available. An
-    // error is that of the recording: the disk refused frames.
+    // Sends what is queued, for at most `limit`, removes the ring, and closes the recordings. Reports stay available.
+    // An error is that of a recording: the disk refused frames, or the input could not be read.
     [[nodiscard]] SetupResult<void> finish(Nanoseconds limit);
-    // True at `flight_end`, or if the recording failed.
+    // True at `flight_end`, or if a recording failed.
     [[nodiscard]] bool has_ended() const;
 
     // Async-signal-safe.
@@ -169,8 +178,12 @@ private:
 
     [[nodiscard]] MonoTime next_due() const;
     void fly();
+    void fly_until(sim::FlightTime target);
+    [[nodiscard]] bool catch_up();
     void fly_to(sim::FlightTime flight);
+    [[nodiscard]] sim::FlightTime next_event() const;
     void run_orders(sim::Moment now);
+    void play_input(sim::Moment now);
     void maintain(MonoTime now);
     void refresh_page(MonoTime now);
 
@@ -182,13 +195,15 @@ private:
     std::unique_ptr<FlightClock> clock_;
     std::unique_ptr<TimeLine> time_line_;
     std::unique_ptr<SharedMemory> shared_;
-    std::unique_ptr<FlightRecording> recording_;
+    std::unique_ptr<FlightRecording> recording_, received_;
+    std::unique_ptr<InputReplay> input_;
     std::unique_ptr<LinkSink> sink_;
     std::unique_ptr<Fleet> fleet_;
     std::unique_ptr<Connections> connections_;
     MonoTime created_ = mono_now();
     MonoTime maintain_due_{}, page_due_{};
     std::uint64_t refused_orders_ = 0;
+    bool runs_orders_ = false, has_warned_ = false;
 };
 
 }  // namespace mavloom::simserve

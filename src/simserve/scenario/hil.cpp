@@ -189,6 +189,8 @@ constexpr std::string_view it_sends = "PX4 sends the telemetry", it_has = "PX4 h
 constexpr std::array keys_of_px4{
     OwnKey{sim_section, "profile", it_sends},
     OwnKey{sim_section, "record", it_sends},
+    OwnKey{sim_section, "record_input", "clients talk to PX4"},
+    OwnKey{sim_section, "replay_input", "clients talk to PX4"},
     OwnKey{sim_section, "ring", it_sends},
     OwnKey{web_section, "listen", it_sends},
     OwnKey{vehicle_section, "autopilot", "the autopilot is PX4"},

@@ -72,10 +72,10 @@ SetupResult<void> set_speed(Scenario& scenario, Text text) {
     return {};
 }
 
-SetupResult<void> set_recording(Scenario& scenario, Text text) {
+SetupResult<void> set_recording(Text text, std::string& target) {
     if (!text.ends_with(".tlog"))
         return endpoint::usage(fmt::format("{}: the name of a recording ends in .tlog", in_quotes(text)));
-    scenario.recording = text;
+    target = text;
     return {};
 }
 
@@ -94,14 +94,16 @@ SetupResult<void> set_capacity(Scenario& scenario, Text text) {
     return put(endpoint::parse_ring_capacity(text), scenario.ring.capacity_bytes);
 }
 
-constexpr std::array<Key<Scenario>, 13> all_sim_keys{{
+constexpr std::array<Key<Scenario>, 15> all_sim_keys{{
     {"name", "", [](Scenario& s, Text t) { return set_name(t, "simulator", s.name); }},
     {"seed", "1", [](Scenario& s, Text t) { return put(parse_integer(t, 0, UINT64_MAX), s.seed); }},
     {"speed", "1", set_speed},
     {"profile", "", set_profile},
     {"for", "", set_duration},
     {"start_time", "", [](Scenario& s, Text t) { return put(parse_utc(t), s.start_time); }},
-    {"record", "", set_recording},
+    {"record", "", [](Scenario& s, Text t) { return set_recording(t, s.recording); }},
+    {"record_input", "", [](Scenario& s, Text t) { return set_recording(t, s.input_recording); }},
+    {"replay_input", "", [](Scenario& s, Text t) { return set_recording(t, s.input); }},
     {"report", "false", [](Scenario& s, Text t) { return put(parse_bool(t), s.has_report); }},
     {"ring", "", [](Scenario& s, Text t) { return set_name(t, "ring", s.ring.name); }},
     {"ring_capacity", "8MiB", set_capacity},

@@ -435,6 +435,10 @@ SetupResult<void> check_endpoints(const Scenario& scenario, const Document& docu
 SetupResult<void> check_scenario(const Scenario& scenario, const Document& document) {
     if (scenario.speed == max_speed && !scenario.duration && !scenario.hil)
         return setup_error(SetupCode::usage, "speed max needs the length of the flight: for, or --for 10m");
+    if (!scenario.input.empty() && scenario.start_time == WallTime{})
+        return setup_error(SetupCode::usage,
+                           "replay_input needs the start_time of the session that was recorded, which it stated at its "
+                           "end: --start-time 2026-11-29T12:00:00Z");
     if (auto good = check_endpoints(scenario, document); !good) return good;
     return check_parameters(scenario, document);
 }

@@ -83,7 +83,7 @@ def copy_examples(folder):
 @pytest.fixture
 def folder(tmp_path, run):
     copy_examples(tmp_path / "examples")
-    for name in ("flight.tlog", "before.tlog", "after.tlog"):
+    for name in ("flight.tlog", "before.tlog", "after.tlog", "session.tlog"):
         shutil.copy(frames.FLIGHT, tmp_path / name)
     (tmp_path / "main.conf").write_text("[UdpEndpoint ground]\nMode = Normal\nAddress = 127.0.0.1\nPort = 14550\n")
     (tmp_path / "mine.xml").write_text('<?xml version="1.0"?><mavlink><messages><message id="42000" name="MY_STATE">'
@@ -101,9 +101,12 @@ def folder(tmp_path, run):
 
 
 def make_way(folder, words):
-    """`key new` refuses a file that exists."""
+    """`key new` and recordings refuse a file that exists."""
     if words[:2] == ["key", "new"]:
         (folder / words[2]).unlink(missing_ok=True)
+    for option, file in zip(words, words[1:]):
+        if option in ("--record", "--record-input"):
+            (folder / file).unlink(missing_ok=True)
 
 
 def is_good(done, words):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The flight clock: as fast as possible, standing still, by steps; and flights that are recorded without any socket."""
 import json
+import math
+import re
 import time
 
 import frames
@@ -8,6 +10,8 @@ import pytest
 from pymavlink import mavutil
 
 from disks import SmallDisk
+from simulators import item
+from stations import mavlink
 
 FLIGHT = """
 [sim]
@@ -139,3 +143,92 @@ def test_a_full_disk_ends_the_flight(run, tmp_path):
     SmallDisk(tmp_path)
     done = run("sim", "--speed", "max", "--for", "1h", "--record", tmp_path / "x.tlog")
     assert done.status == 1 and "No space left" in done.stderr, done
+
+
+def values_of(frame):
+    """The fields of a frame as numbers, by pymavlink."""
+    message = mavlink.MAVLink(None).decode(bytearray(frame))
+    fields = [getattr(message, name) for name in message.get_fieldnames()]
+    return [value for field in fields for value in (field if isinstance(field, list) else [field])]
+
+
+def test_without_fma_only_last_digits_differ(run, tmp_path):
+    """The C library's sines differ in the last bit between processors with FMA and without. As docs/guide/sim.md
+    promises, each kind repeats itself exactly, and between them few numbers differ, in their last digit."""
+    (tmp_path / "x.toml").write_text(FLIGHT)
+
+    def fly_on(name, tunables):
+        path = tmp_path / f"{name}.tlog"
+        done = run("sim", tmp_path / "x.toml", "--record", path, env={"GLIBC_TUNABLES": tunables})
+        assert done.status == 0, done
+        return path
+    usual = fly_on("usual", "")
+    others = [fly_on(name, "glibc.cpu.hwcaps=-AVX2,-FMA") for name in ("other", "again")]
+    assert others[0].read_bytes() == others[1].read_bytes()
+    pairs = list(zip(frames.read_tlog(usual), frames.read_tlog(others[0]), strict=True))
+    differing = [(a, b) for a, b in pairs if a != b]
+    assert len(differing) < len(pairs) / 100
+    for (at, frame), (other_at, other) in differing:
+        assert at == other_at and frame[4:10] == other[4:10], "the same time, number, sender and message"
+        for value, other_value in zip(values_of(frame), values_of(other), strict=True):
+            if isinstance(value, float):
+                assert value == pytest.approx(other_value, rel=1e-5, abs=1e-6, nan_ok=True)
+            else:
+                assert value == other_value or abs(value - other_value) <= 1
+
+
+# ---- sessions that are repeated
+
+def session(sim, tmp_path, speed="1"):
+    """A client flies; returns the arguments that repeat its session, and the recording."""
+    simulator = sim("--record-input", tmp_path / "in.tlog", "--record", tmp_path / "out.tlog", "--speed", speed)
+    with simulator.station() as px4:
+        px4.ready()
+        home = px4.expect("HOME_POSITION", since=0).altitude / 1000
+        assert px4.command(22, -1, 0, 0, math.nan, math.nan, math.nan, home + 5) == 0
+        assert px4.command(400, 1) == 0
+        px4.set_interval(30, 20_000)
+        px4.set_parameter("MPC_XY_CRUISE", 3.0)
+        assert px4.upload([item(0, 22, height=5), item(1, 16, 20, height=5)]).type == 0
+        px4.expect("GLOBAL_POSITION_INT", where=lambda m: m.relative_alt > 2000)
+    report = simulator.stop().stderr
+    start = re.search(r"in\.tlog: play it with --replay-input and --start-time (\S+)", report)[1]
+    return ["--replay-input", tmp_path / "in.tlog", "--start-time", start], tmp_path / "out.tlog"
+
+
+@pytest.mark.parametrize("speed", ["1", "3"])
+def test_a_session_is_played_again(sim, run, tmp_path, speed):
+    arguments, recorded = session(sim, tmp_path, speed)
+    done = run("sim", *arguments, "--speed", "max", "--for", "5m", "--record", tmp_path / "again.tlog")
+    assert done.status == 0, done
+    whole = recorded.read_bytes()
+    assert whole == (tmp_path / "again.tlog").read_bytes()[:len(whole)] and len(whole) > 20_000
+    log = mavutil.mavlink_connection(str(recorded))
+    heights = []
+    while message := log.recv_match(type="GLOBAL_POSITION_INT"):
+        heights.append(message.relative_alt)
+    assert max(heights) > 2000, "it did fly"
+
+
+def test_without_its_input_the_session_is_another_one(sim, run, tmp_path):
+    arguments, recorded = session(sim, tmp_path)
+    done = run("sim", *arguments[2:], "--speed", "max", "--for", "5m", "--record", tmp_path / "other.tlog")
+    whole = recorded.read_bytes()
+    assert done.status == 0 and whole != (tmp_path / "other.tlog").read_bytes()[:len(whole)]
+
+
+@pytest.mark.parametrize("arguments, status, text", [
+    (["--replay-input", "in.tlog", "--for", "1s"], 2, "needs the start_time"),
+    (["--replay-input", "no.tlog", "--for", "1s", "--start-time", "2026-11-29T12:00:00Z"], 3, "no.tlog"),
+    (["--record-input", "in.bin"], 2, "ends in .tlog"),
+])
+def test_wrong_use_of_sessions(run, tmp_path, arguments, status, text):
+    done = run("sim", *arguments, cwd=tmp_path)
+    assert done.status == status and text in done.stderr, done
+
+
+def test_what_is_no_recording_is_not_played(run, tmp_path):
+    (tmp_path / "in.tlog").write_bytes(b"x" * 5000)
+    done = run("sim", "--replay-input", tmp_path / "in.tlog", "--for", "1s", "--start-time", "2026-11-29T12:00:00Z",
+               "--record", tmp_path / "x.tlog")
+    assert done.status in (1, 3) and "in.tlog" in done.stderr, done
