@@ -132,14 +132,17 @@ void HilPort::note_state() {
         say(LogLevel::info, vehicle + (is_board_ ? " in real time"
                                                  : " in real time: the autopilot keeps a clock of its own, as a PX4 "
                                                    "that was built without lock-step"));
+    if (before == State::real_time && state_ == State::lost && !std::exchange(said_lost_, true))
+        say(LogLevel::warning, "has sent no HIL_ACTUATOR_CONTROLS for some seconds; the motors keep the last ones");
     if (state_ == State::lost && !std::exchange(said_lost_, true))
         say(LogLevel::warning,
             fmt::format("no answer to {} steps in a row, so steps come in real time until there is one. An autopilot "
                         "does not answer if it was stopped, if its gyroscope failed, or if sensors come more often "
                         "than its parameter IMU_INTEG_RATE",
                         hil::LockStep::most_in_row));
-    if (before == State::lost && state_ == State::lock_step && !std::exchange(said_back_, true))
-        say(LogLevel::info, "answers again: lock-step");
+    const bool is_back = before == State::lost && (state_ == State::lock_step || state_ == State::real_time);
+    if (is_back && !std::exchange(said_back_, true))
+        say(LogLevel::info, state_ == State::lock_step ? "answers again: lock-step" : "sends again");
 }
 
 void HilPort::maintain(MonoTime now) {
