@@ -148,7 +148,7 @@ def test_allowed_include_passes(path, line):
 def test_link_graph_follows_the_module_table():
     table = module_table()
     keyword = "LINK|PRIVATE_LINK|COLD|NO_SOURCES"
-    declared = re.findall(rf"^mavloom_module\((\w+)(?: DEPENDS ([\w ]*?))?(?=\)|\s+(?:{keyword}))",
+    declared = re.findall(rf"^mavloom_module\((\w+)(?: DEPENDS ([\w\s]*?))?(?=\)|\s+(?:{keyword}))",
                           (ROOT / "CMakeLists.txt").read_text(), re.MULTILINE)
     direct = {module: set(depends.split()) for module, depends in declared}
     assert set(direct) == set(table) - {"apps", "python"}
