@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: MIT
+"""`mavloom ctl` at the simulator for PX4, while a stand-in holds its place in the air."""
+import json
+
+import pytest
+
+import harness
+
+HOLD = {"arm_at": 0.5, "height": 3.0, "hold": 1e9}
+
+
+@pytest.fixture
+def holding(hil, stand_in):
+    simulator = hil("--speed", "max")
+    pilot = stand_in(simulator.hil_port, **HOLD)
+    pilot.said("hold")
+    return simulator, pilot
+
+
+def moved_by(simulator, seconds):
+    """The state after so much more of a paused flight."""
+    goal = simulator.hil()["steps"] + round(seconds * 250)
+    simulator.ctl("step", f"{seconds * 1000:.0f}ms")
+    harness.wait_for(lambda: simulator.hil()["steps"] >= goal, what="the steps")
+    state = simulator.hil()
+    assert state["steps"] == goal
+    return state
+
+
+def test_a_paused_flight_moves_by_exact_steps(holding):
+    simulator, pilot = holding
+    simulator.ctl("pause")
+    before = simulator.hil()
+    assert before["paused"]
+    after = moved_by(simulator, 0.04)
+    assert after["flight_s"] == pytest.approx(before["flight_s"] + 0.04, abs=1e-6)
+    simulator.ctl("resume")
+    harness.wait_for(lambda: simulator.hil()["steps"] > after["steps"] + 500, what="a flight that continues")
+    assert pilot.alive and simulator.hil()["relative_alt_m"] == pytest.approx(3, abs=0.7)
+
+
+def test_an_autopilot_that_dies_in_a_pause_leaves_the_vehicle_at_its_start(holding, stand_in):
+    simulator, pilot = holding
+    simulator.ctl("pause")
+    pilot.kill()
+    state = harness.wait_for(lambda: (row := simulator.hil())["state"] == "waiting" and row, what="the end of the link")
+    assert state["relative_alt_m"] == 0 and state["paused"]
+    simulator.ctl("resume")
+    assert stand_in(simulator.hil_port, **{**HOLD, "hold": 0.1}).said("report")["time_errors"] == 0
+
+
+def test_a_pushed_vehicle_moves_and_its_pilot_brings_it_back(holding):
+    simulator, _ = holding
+    simulator.ctl("pause")
+    simulator.ctl("push", "4,0,0")
+    assert moved_by(simulator, 0.6)["vn_m_s"] > 1
+    simulator.ctl("resume")
+    harness.wait_for(lambda: abs((state := simulator.hil())["vn_m_s"]) < 0.1 and abs(state["lat"] - 47.397742) < 5e-6,
+                     what="the vehicle to be back at its place")
+
+
+def test_a_heavier_vehicle_sinks_and_its_pilot_brings_it_back(holding):
+    simulator, _ = holding
+    simulator.ctl("pause")
+    height = simulator.hil()["relative_alt_m"]
+    simulator.ctl("mass", "2")
+    assert moved_by(simulator, 0.8)["relative_alt_m"] < height - 0.1
+    simulator.ctl("resume")
+    harness.wait_for(lambda: simulator.hil()["relative_alt_m"] > 2.8, what="its pilot to lift it again")
+
+
+def test_waits_for_the_height_and_for_the_landing(hil, stand_in):
+    simulator = hil("--speed", "2")
+    stand_in(simulator.hil_port, arm_at=2.0, height=2.0, hold=6.0, stay=True)
+    rows = [json.loads(line) for arguments in (("armed",), ("alt", "2"), ("disarmed",))
+            for line in simulator.ctl("wait", *arguments).splitlines()]
+    assert [row["armed"] for row in rows] == [True, True, False]
+    assert rows[1]["relative_alt_m"] == pytest.approx(2, abs=0.5)
+
+
+def test_orders_for_px4_are_refused_with_the_reason(hil, run):
+    simulator = hil()
+    done = run("ctl", simulator.name, "takeoff", "10")
+    assert done.status == 1 and "PX4 flies this vehicle" in done.stderr
