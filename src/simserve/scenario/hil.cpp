@@ -192,6 +192,8 @@ constexpr std::array keys_of_px4{
     OwnKey{sim_section, "record_input", "clients talk to PX4"},
     OwnKey{sim_section, "replay_input", "clients talk to PX4"},
     OwnKey{sim_section, "ring", it_sends},
+    OwnKey{sim_section, "record_input", it_sends},
+    OwnKey{sim_section, "replay_input", it_sends},
     OwnKey{web_section, "listen", it_sends},
     OwnKey{vehicle_section, "autopilot", "the autopilot is PX4"},
     OwnKey{vehicle_section, "motion", flies_all},
