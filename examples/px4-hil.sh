@@ -2,7 +2,7 @@
 # Flies PX4 on Mavloom's physics: starts the simulator, a router and PX4, and ends all three on Ctrl-C.
 #
 #   examples/px4-hil.sh PX4_FOLDER [OPTION OF mavloom sim ...]
-#   examples/px4-hil.sh ~/PX4-Autopilot --speed 5 --wind 4,270
+#   PX4_SIM_SPEED_FACTOR=5 examples/px4-hil.sh ~/PX4-Autopilot --wind 4,270
 #
 #   simulator :4560 <---> PX4 :18570 <---> :5057 router <---> ground station :14550
 #                                              router <---> :5760 SDKs: tcpout://127.0.0.1:5760 (MAVSDK),
