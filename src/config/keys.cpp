@@ -227,6 +227,11 @@ constexpr std::array all_keys{
               "",
               [](Config& c, std::string_view t) { return set_web_hosts(c.web, t); },
               {"--web-host", "NAME,...", "further names of this machine that clients of --web use"}},
+    ConfigKey{"web",
+              "token_file",
+              "",
+              [](Config& c, std::string_view t) { return set_web_token_file(c.web, t); },
+              {"--web-token-file", "FILE", "clients of --web must send the token that this file holds"}},
     ConfigKey{"log",
               "level",
               "info",
@@ -250,6 +255,10 @@ SetupResult<void> set_web_origins(WebConfig& web, std::string_view text) {
 }
 SetupResult<void> set_web_hosts(WebConfig& web, std::string_view text) {
     web.hosts = split_list(text);
+    return {};
+}
+SetupResult<void> set_web_token_file(WebConfig& web, std::string_view text) {
+    web.token_file = text;
     return {};
 }
 

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "http/stream.hpp"
+#include "http/token.hpp"
 #include "mavloom/base/shown.hpp"
 #include "mavloom/net/tcp.hpp"
 
@@ -25,6 +26,8 @@ using beast::http::verb;
 
 namespace {
 
+constexpr std::string_view wrong_token_text =
+    "this server needs a token: add ?token=TOKEN to the address, or send the header 'Authorization: Bearer TOKEN'\n";
 // A page may only load what this server has, and no other page may embed it.
 constexpr std::string_view security_headers =
     "Content-Security-Policy: default-src 'self'; img-src 'self' data: blob:; frame-ancestors 'none'\r\n"
@@ -34,6 +37,7 @@ constexpr std::string_view security_headers =
 
 std::string_view header_for(int status) {
     return status == 405   ? "Allow: GET, HEAD\r\n"
+           : status == 401 ? "WWW-Authenticate: Bearer\r\n"
            : status == 426 ? "Upgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
                            : "";
 }
@@ -149,6 +153,7 @@ void Connection::take(error_code error) {
     wait_for_handler();
     stays_open_ = false;
     listed_origin_.clear();
+    set_cookie_.clear();
     if (error) return refuse_malformed(error);
     const auto request = parser_->release();
     server_->counters.add(Count::requests);
@@ -186,7 +191,20 @@ void Connection::answer(const BeastRequest& request) {
     if (!origin.empty() && server_->allowed.is_listed(origin)) listed_origin_ = origin;
     if (request.method() != verb::get && request.method() != verb::head)
         return refuse(405, Count::wrong_method, get_and_head_only);
+    if (!may_read(request)) return refuse(401, Count::wrong_token, wrong_token_text);
     answer_path(request);
+}
+
+bool Connection::may_read(const BeastRequest& request) {
+    const auto query = split_target(view_of(request.target())).second;
+    query_ = query;
+    const auto& token = server_->options.access.token;
+    if (token.empty()) return true;
+    const TokenPlaces places{view_of(request[field::authorization]), query, view_of(request[field::cookie])};
+    if (!has_token(places, token, local_.port())) return false;
+    query_ = query_without_token(query);
+    if (is_same_secret(token_in(query), token)) set_cookie_ = token_cookie(token, local_.port());
+    return true;
 }
 
 void Connection::answer_path(const BeastRequest& request) {
@@ -240,8 +258,8 @@ void Connection::open(const BeastRequest& request, const WebSocketRoute& route) 
 
 void Connection::open(const BeastRequest& request, const StreamRoute& route) {
     stays_open_ = false;
-    const auto [path, query] = split_target(view_of(request.target()));
-    auto opened = route.get({std::string(path), std::string(query), remote_, {}, {}});
+    const auto path = split_target(view_of(request.target())).first;
+    auto opened = route.get({std::string(path), query_, remote_, {}, {}});
     if (!opened) return refuse(400, Count::wrong_query, opened.error().text + "\n");
     if (is_head_) return write({.content_type = route.content_type});
     if (!has_room_for_session()) return refuse(503, Count::turned_away, "too many WebSockets and streams are open\n");
@@ -276,13 +294,12 @@ bool Connection::has_room_for_session() {
 }
 
 void Connection::call(const BeastRequest& request, const Route& route) {
-    const auto [path, query] = split_target(view_of(request.target()));
+    const auto path = split_target(view_of(request.target())).first;
     server_->waiting.insert(shared_from_this());
     const auto header = [&](field name) { return std::string(view_of(request[name])); };
-    route.get(
-        {std::string(path), std::string(query), remote_, header(field::accept_encoding), header(field::if_none_match)},
-        on_thread<Response>(server_->core, weak_from_this(),
-                            [](Connection& there, const Response& response) { there.respond(response); }));
+    route.get({std::string(path), query_, remote_, header(field::accept_encoding), header(field::if_none_match)},
+              on_thread<Response>(server_->core, weak_from_this(),
+                                  [](Connection& there, const Response& response) { there.respond(response); }));
 }
 
 void Connection::respond(const Response& response) {
@@ -311,10 +328,10 @@ std::string Connection::sharing() const {
 // Without a length, the answer ends with the connection (RFC 9112, section 6.3).
 std::string Connection::head(int status, std::string_view content_type, std::string_view more) const {
     namespace http = beast::http;
-    return fmt::format("HTTP/{}.{} {} {}\r\nContent-Type: {}\r\n{}Connection: {}\r\n{}{}{}\r\n", version_ / 10,
-                       version_ % 10, status,
-                       view_of(http::obsolete_reason(http::int_to_status(static_cast<unsigned>(status)))), content_type,
-                       more, stays_open_ ? "keep-alive" : "close", header_for(status), sharing(), security_headers);
+    return fmt::format(
+        "HTTP/{}.{} {} {}\r\nContent-Type: {}\r\n{}Connection: {}\r\n{}{}{}{}\r\n", version_ / 10, version_ % 10,
+        status, view_of(http::obsolete_reason(http::int_to_status(static_cast<unsigned>(status)))), content_type, more,
+        stays_open_ ? "keep-alive" : "close", header_for(status), sharing(), set_cookie_, security_headers);
 }
 
 void Connection::write(const Response& response) {

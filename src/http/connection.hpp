@@ -70,6 +70,7 @@ private:
     void refuse_malformed(error_code error);
     void refuse_body();
     void answer(const BeastRequest& request);
+    [[nodiscard]] bool may_read(const BeastRequest& request);
     void answer_path(const BeastRequest& request);
     void open(const BeastRequest& request, const WebSocketRoute& route);
     void open(const BeastRequest& request, const StreamRoute& route);
@@ -93,6 +94,8 @@ private:
     bool is_head_ = false, stays_open_ = false;
     unsigned version_ = 11;      // 10 or 11, for HTTP/1.0 and HTTP/1.1
     std::string listed_origin_;  // of the page that caused the request; empty: there is none
+    std::string query_;          // of the request, without a token
+    std::string set_cookie_;     // a header of the answer; empty: none
     std::string head_;
     std::shared_ptr<const std::string> body_;
 };

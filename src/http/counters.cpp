@@ -21,6 +21,7 @@ constexpr std::array<Described, Counters::size> described{
      {Count::body_size, "body_size", "requests with a body, which got status 413"},
      {Count::wrong_host, "wrong_host", "requests with a Host header that is not this machine, which got status 403"},
      {Count::wrong_origin, "wrong_origin", "requests that a web page of another origin caused, which got status 403"},
+     {Count::wrong_token, "wrong_token", "requests without the token of this server, which got status 401"},
      {Count::wrong_path, "wrong_path", "requests for a path that does not exist, which got status 404"},
      {Count::wrong_method, "wrong_method", "requests other than GET and HEAD, which got status 405"},
      {Count::wrong_query, "wrong_query",

@@ -102,7 +102,10 @@ public:
 private:
     http::ServerOptions server_options(const Options& options) {
         http::ServerOptions all{.addresses = options.addresses};
-        all.access = {.hosts = options.hosts, .hosts_option = options.hosts_option, .origins = options.origins};
+        all.access = {.hosts = options.hosts,
+                      .hosts_option = options.hosts_option,
+                      .origins = options.origins,
+                      .token = options.token};
         all.routes = {
             text_route("/metrics", "text/plain; version=0.0.4; charset=utf-8",
                        [this] { return reporter_.metrics(server_counts()); }),

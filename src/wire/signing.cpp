@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/wire/signing.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sodium.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <optional>
 #include <string_view>
 
+#include "mavloom/base/secret_file.hpp"
 #include "mavloom/base/text.hpp"
 
 namespace mavloom::wire {
@@ -72,42 +69,14 @@ std::uint64_t SigningKey::fingerprint() const noexcept {
 
 SigningKey::~SigningKey() { sodium_memzero(bytes_.data(), bytes_.size()); }
 
-// The key file is user input, so every failure to open it is `bad_input`.
-static tl::unexpected<SetupError> cannot_open(const std::filesystem::path& file, int error) {
-    auto failed = system_error(fmt::format("cannot open key file {}", file.string()), error);
-    failed.value().code = SetupCode::bad_input;
-    return failed;
-}
-
-// Checks and reads the same open file, so that it cannot be replaced in between.
-static SetupResult<SigningKey> read_key(int fd, const std::filesystem::path& file) {
-    struct stat status {};
-    if (::fstat(fd, &status) != 0) return cannot_open(file, errno);
-    if (!S_ISREG(status.st_mode))
-        return setup_error(SetupCode::bad_input, fmt::format("key file {} is not a regular file", file.string()));
-    if ((status.st_mode & 077) != 0)
-        return setup_error(SetupCode::bad_input,
-                           fmt::format("key file {} can be read by others (mode {:04o}): chmod 600 {}", file.string(),
-                                       status.st_mode & 0777u, file.string()));
-    std::array<char, 1024> text;
-    const ssize_t size = ::read(fd, text.data(), text.size());
-    if (size < 0) return cannot_open(file, errno);
-    const bool whole = static_cast<std::size_t>(size) < text.size();
-    const auto key = parse_hex({text.data(), static_cast<std::size_t>(size)});
-    sodium_memzero(text.data(), text.size());
-    if (!key || !whole)
-        return setup_error(SetupCode::bad_input,
-                           fmt::format("{}: expected 64 hexadecimal digits, a key of 32 bytes", file.string()));
-    return SigningKey(*key);
-}
-
 SetupResult<SigningKey> SigningKey::load(const std::filesystem::path& file) {
-    // O_NONBLOCK: opening a pipe must not wait for a writer.
-    const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-    if (fd < 0) return cannot_open(file, errno);
-    auto key = read_key(fd, file);
-    ::close(fd);
-    return key;
+    auto text = read_secret_file(file, "key file");
+    if (!text) return tl::unexpected(std::move(text.error()));
+    const auto key = parse_hex(*text);
+    sodium_memzero(text->data(), text->size());
+    if (key) return SigningKey(*key);
+    return setup_error(SetupCode::bad_input,
+                       fmt::format("{}: expected 64 hexadecimal digits, a key of 32 bytes", file.string()));
 }
 
 std::size_t Signer::sign(ByteSpan frame, std::size_t size, SigningTime now) noexcept {

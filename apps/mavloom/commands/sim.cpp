@@ -88,6 +88,7 @@ constexpr KeyOption key_options[] = {
      "serve the page and viewers at http://HOST:PORT, for example 127.0.0.1:8088 (docs/guide/web.md)", "HOST:PORT"},
     {"--web-origin", "web", "origin", "web pages that may connect to --web, as in https://app.foxglove.dev", "URL,..."},
     {"--web-host", "web", "host", "further names of this machine that clients of --web use", "NAME,..."},
+    {"--web-token-file", "web", "token_file", "clients of --web must send the token that this file holds", "FILE"},
 };
 
 struct SimOptions {

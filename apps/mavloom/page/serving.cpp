@@ -77,8 +77,9 @@ SetupResult<std::unique_ptr<web::Server>> open_server(const dialect::Dialect& di
     return tl::unexpected(std::move(error));
 }
 
-std::string place_of(const net::Address& address) {
-    return address.is_any() ? fmt::format("localhost:{}", address.port()) : address.text();
+std::string place_of(const net::Address& address, bool has_token) {
+    const auto place = address.is_any() ? fmt::format("localhost:{}", address.port()) : address.text();
+    return place + (has_token ? "/?token=TOKEN" : "");
 }
 
 }  // namespace mavloom::app

@@ -83,6 +83,7 @@ private:
                                                                     std::string_view option, web::Options access = {});
 
 // Where a browser on this machine finds the server.
-[[nodiscard]] std::string place_of(const net::Address& address);
+// `has_token`: clients need one, so the place has room for it.
+[[nodiscard]] std::string place_of(const net::Address& address, bool has_token = false);
 
 }  // namespace mavloom::app

@@ -11,6 +11,7 @@
 #include "frames/receiving.hpp"
 #include "mavloom/endpoint/grammar.hpp"
 #include "mavloom/net/interfaces.hpp"
+#include "mavloom/web/token.hpp"
 #include "output.hpp"
 #include "page/discovery.hpp"
 #include "page/hop_reporter.hpp"
@@ -27,10 +28,12 @@ struct WebOptions {
     Selection selection;
     std::string listen = "127.0.0.1:8088";
     std::vector<std::string> hosts, origins;
+    std::string token_file;
     bool has_qr = false;
 };
 
-SetupResult<std::unique_ptr<web::Server>> listen(const WebOptions& options, const dialect::Dialect& dialect) {
+SetupResult<std::unique_ptr<web::Server>> listen(const WebOptions& options, const dialect::Dialect& dialect,
+                                                 const std::string& token) {
     const auto place = endpoint::parse_server_address(options.listen);
     if (!place) return tl::unexpected(SetupError(place.error()).within("--listen"));
     std::vector<std::string> origins;
@@ -39,8 +42,9 @@ SetupResult<std::unique_ptr<web::Server>> listen(const WebOptions& options, cons
         if (!parsed) return tl::unexpected(SetupError(parsed.error()).within("--origin"));
         origins.insert(origins.end(), parsed->begin(), parsed->end());
     }
-    return open_server(dialect, *place, "--listen",
-                       {.hosts = options.hosts, .hosts_option = "--host", .origins = std::move(origins)});
+    return open_server(
+        dialect, *place, "--listen",
+        {.hosts = options.hosts, .hosts_option = "--host", .origins = std::move(origins), .token = token});
 }
 
 // After the end of a recording, clients still see its latest messages.
@@ -66,10 +70,11 @@ SetupResult<void> check_qr(const WebOptions& options, const net::Address& addres
 }
 
 // The address of the page for other devices, and its QR code.
-Exit print_qr(const net::Address& address) {
+Exit print_qr(const net::Address& address, const std::string& token) {
     const auto own = address.is_any() ? net::address_on_network() : address;
     if (!own) return fail(Exit::failed, "--qr: this machine has no address on a network");
-    const auto url = "http://" + own->with_port(address.port()).text();
+    const auto url = fmt::format("http://{}/{}{}", own->with_port(address.port()).text(),
+                                 token.empty() ? "" : "?token=", token);
     const auto code = qr_code(url, usual_glyphs(), ::isatty(STDOUT_FILENO) == 1);
     return code ? print_at_end(fmt::format("{}{}\n", *code, url), Exit::done) : fail(code.error());
 }
@@ -82,16 +87,18 @@ Exit web(const Common& common, WebOptions& options) {
     if (!running) return fail(running.error());
     auto receiver = options.receive.open(common, *dialect);
     if (!receiver) return fail(receiver.error());
-    const auto server = listen(options, *dialect);
+    const auto token = web::read_token(options.token_file);
+    if (!token) return fail(SetupError(token.error()).within("--token-file"));
+    const auto server = listen(options, *dialect, *token);
     if (!server) return fail(server.error());
     const auto& address = (*server)->addresses().front();
     if (auto good = check_qr(options, address); !good) return fail(good.error());
     const Signals signals([](void* r) noexcept { static_cast<feed::Receiver*>(r)->stop(); }, receiver->get());
     log_ports(common, (*receiver)->endpoints());
-    print_notice(common,
-                 fmt::format("open http://{0}, or ws://{0} in Foxglove, Lichtblick or PlotJuggler", place_of(address)));
+    print_notice(common, fmt::format("open http://{0}, or ws://{0} in Foxglove, Lichtblick or PlotJuggler",
+                                     place_of(address, !token->empty())));
     if (options.has_qr)
-        if (const auto printed = print_qr(address); printed != Exit::done) return printed;
+        if (const auto printed = print_qr(address, *token); printed != Exit::done) return printed;
     serve(common, options, programs_of(options.receive.sources, *running), **receiver, **server);
     if (const auto* error = (*receiver)->error()) return fail(*error);
     return Signals::status(Exit::done);
@@ -114,6 +121,8 @@ Run declare_web(Arguments command, const Common& common) {
         .one_value_each();
     command.add_flag("--qr", options->has_qr,
                      "print the address as a QR code, for a phone on the same network; with --listen 0.0.0.0:8088");
+    command.add_option("--token-file", "FILE", options->token_file,
+                       "clients must send the token that this file holds: 16 letters or more, chmod 600");
     command
         .add_option("--host", "NAME", options->hosts,
                     "a further name of this machine, under which clients may connect; may be repeated")

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "mavloom/web/server.hpp"
+#include "mavloom/web/token.hpp"
 #include "page/discovery.hpp"
 #include "page/hop_reporter.hpp"
 #include "page/ring_serving.hpp"
@@ -45,8 +46,12 @@ private:
 SetupResult<std::unique_ptr<WebBeside>> WebBeside::open(const Common& common, const dialect::Dialect& dialect,
                                                         const config::WebConfig& config, const Beside& beside) {
     if (!config.listen) return std::unique_ptr<WebBeside>();
-    auto server = open_server(dialect, *config.listen, "--web",
-                              {.hosts = config.hosts, .hosts_option = "--web-host", .origins = config.origins});
+    auto token = web::read_token(config.token_file);
+    if (!token) return tl::unexpected(std::move(token.error()).within("--web-token-file"));
+    const bool has_token = !token->empty();
+    auto server = open_server(
+        dialect, *config.listen, "--web",
+        {.hosts = config.hosts, .hosts_option = "--web-host", .origins = config.origins, .token = std::move(*token)});
     if (!server) return tl::unexpected(std::move(server.error()));
     std::unique_ptr<RingServing> frames;
     if (!beside.ring.empty()) {
@@ -56,7 +61,7 @@ SetupResult<std::unique_ptr<WebBeside>> WebBeside::open(const Common& common, co
     } else {
         print_notice(common, "without --ring NAME, the page shows counters only, no messages");
     }
-    print_notice(common, fmt::format("open http://{}", place_of((*server)->addresses().front())));
+    print_notice(common, fmt::format("open http://{}", place_of((*server)->addresses().front(), has_token)));
     return std::make_unique<ServerBeside>(std::move(*server), std::move(frames), beside);
 }
 

@@ -72,6 +72,7 @@ struct WebConfig {
     std::optional<endpoint::HostPort> listen{};  // empty: none
     std::vector<std::string> origins{};          // web pages that may connect
     std::vector<std::string> hosts{};            // further names of this machine
+    std::string token_file{};                    // holds what each client must send; empty: all may read
     friend bool operator==(const WebConfig&, const WebConfig&) = default;
 };
 

@@ -32,5 +32,6 @@ struct ConfigKey {
 [[nodiscard]] SetupResult<void> set_web_listen(WebConfig& web, std::string_view text);
 [[nodiscard]] SetupResult<void> set_web_origins(WebConfig& web, std::string_view text);
 [[nodiscard]] SetupResult<void> set_web_hosts(WebConfig& web, std::string_view text);
+[[nodiscard]] SetupResult<void> set_web_token_file(WebConfig& web, std::string_view text);
 
 }  // namespace mavloom::config

@@ -23,6 +23,7 @@ enum class Count : std::uint8_t {
     body_size,
     wrong_host,
     wrong_origin,
+    wrong_token,
     wrong_path,
     wrong_method,
     wrong_query,

@@ -21,7 +21,7 @@
 
 namespace mavloom::http {
 
-// Which requests are refused (403), because a web page of somebody else may have caused them.
+// Which requests are refused: those that a web page of somebody else may have caused (403), or without the token.
 struct Access {
     // Host must be "localhost", a loopback address or the address that the client is connected to, because a page's own
     // name may lead here, too (DNS rebinding). Clients without a Host header pass.
@@ -32,6 +32,9 @@ struct Access {
     // An Origin header must be in this list, as in "https://app.example.com"; "*" allows all. The server's own origin
     // is allowed too, unless `any_host`. Requests without the header pass: it is browsers that send it.
     std::vector<std::string> origins{};
+    // Each request must have it (else 401): in the header "Authorization: Bearer TOKEN", as "?token=TOKEN", or in the
+    // cookie that the answer to the latter sets. Letters of a URL only. Empty: none is needed.
+    std::string token{};
 };
 
 struct Limits {

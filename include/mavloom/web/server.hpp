@@ -27,6 +27,7 @@ struct Options {
     std::vector<std::string> hosts{};       // further names of this machine, for the Host header
     std::string hosts_option{};             // of the program, that adds to them; empty: it has none
     std::vector<std::string> origins{};     // pages that may connect, as in "https://app.example.com"; "*": all
+    std::string token{};                    // of read_token; each client must send it. Empty: all may read
 };
 
 // The routes that a router has learned.

@@ -113,10 +113,11 @@ constexpr std::array<Key<Scenario>, 15> all_sim_keys{{
      [](Scenario& s, Text t) { return put(parse_hil_sensors(t), s.hil_rates); }},
 }};
 
-constexpr std::array<Key<Scenario>, 3> all_web_keys{{
+constexpr std::array<Key<Scenario>, 4> all_web_keys{{
     {"listen", "", [](Scenario& s, Text t) { return config::set_web_listen(s.web, t); }},
     {"origin", "", [](Scenario& s, Text t) { return config::set_web_origins(s.web, t); }},
     {"host", "", [](Scenario& s, Text t) { return config::set_web_hosts(s.web, t); }},
+    {"token_file", "", [](Scenario& s, Text t) { return config::set_web_token_file(s.web, t); }},
 }};
 
 SetupResult<SystemId> parse_system(Text text) {

@@ -494,6 +494,18 @@ def test_pages_of_allowed_origins_read_answers(page, spawn, foreign_origin):
     assert read(other) == "refused"
 
 
+def test_a_page_opened_with_the_token_reads_and_others_do_not(page, spawn, tmp_path):
+    (tmp_path / "token").write_text("0123456789abcdef\n")
+    (tmp_path / "token").chmod(0o600)
+    web = spawn("web", frames.FLIGHT, "--listen", "127.0.0.1:0", "--token-file", tmp_path / "token")
+    place = web.wait_output(r"open (http://[^/]+)/\?token=TOKEN,", stream="err")[1]
+    assert page.goto(place).status == 401
+    page.goto(f"{place}/?token=0123456789abcdef#messages?q=attitude")
+    row(page, "/1/1/ATTITUDE").wait_for()
+    page.goto(f"{place}/#overview")  # the browser has a cookie now
+    page.get_by_role("heading", name=re.compile("^Vehicles")).wait_for()
+
+
 def test_only_visible_rows_of_many_vehicles_are_in_the_document(page):
     with Server() as swarm:
         for system in range(1, MANY + 1):

@@ -117,6 +117,35 @@ TEST_F(HttpServer, RefusesByNameAndCounts) {
     EXPECT_EQ(count(Count::bad_handshake), 1u);
 }
 
+// RFC 6750, sections 2.1 and 2.3: in the header, or in the query. A browser sends the cookie with what comes next.
+TEST_F(HttpServer, WantsItsToken) {
+    auto options = greeter();
+    options.access.token = "0123456789abcdef";
+    serve(std::move(options));
+    const auto answer_to = [&](const std::string& path, const std::string& header) {
+        return answer("GET " + path + " HTTP/1.1\r\nHost: localhost\r\n" + header + "Connection: close\r\n\r\n");
+    };
+    const auto cookie = "mavloom-" + std::to_string(server->addresses().front().port()) + "=0123456789abcdef";
+
+    const auto without = answer_to("/hello?you", "");
+    const auto by_query = answer_to("/hello?you&token=0123456789abcdef", "");
+
+    EXPECT_THAT(without, StartsWith("HTTP/1.1 401 Unauthorized\r\n"));
+    EXPECT_THAT(without, HasSubstr("\r\nWWW-Authenticate: Bearer\r\n"));
+    EXPECT_THAT(without, Not(HasSubstr("Set-Cookie")));
+    EXPECT_THAT(by_query, EndsWith("\r\n\r\nhello you"));
+    EXPECT_THAT(by_query, HasSubstr("\r\nSet-Cookie: " + cookie + "; HttpOnly; SameSite=Strict; Path=/\r\n"));
+    EXPECT_THAT(answer_to("/hello?you", "Authorization: bearer 0123456789abcdef\r\n"), EndsWith("hello you"));
+    EXPECT_THAT(answer_to("/hello?you", "Cookie: a=b; " + cookie + "\r\n"), EndsWith("hello you"));
+    for (const std::string wrong : {"/hello?token=0123456789abcdeF", "/hello?token=0123456789abcde",
+                                    "/hello?token=", "/hello?xtoken=0123456789abcdef", "/nowhere"})
+        EXPECT_THAT(answer_to(wrong, ""), StartsWith("HTTP/1.1 401")) << wrong;
+    for (const std::string wrong : {"Authorization: 0123456789abcdef\r\n", "Authorization: B\r\n",
+                                    "Cookie: mavloom-1=0123456789abcdef\r\n", "Cookie: =;;=\r\n"})
+        EXPECT_THAT(answer_to("/hello", wrong), StartsWith("HTTP/1.1 401")) << wrong;
+    EXPECT_EQ(count(Count::wrong_token), 10u);
+}
+
 // Fetch Standard, "CORS protocol": only the origin that the answer names may read it.
 TEST_F(HttpServer, PagesOfListedOriginsMayReadAnswers) {
     auto options = greeter();
