@@ -51,6 +51,11 @@ for package in "$root"/apt/archives/*.deb; do
 done
 rm -rf "$root/apt" "$root/control" "$root/files.tar"
 
+# Links such as libtinfo.so -> /lib/.../libtinfo.so.6 would lead out of the folder, and the linker would use libtinfo.a.
+find "$root/usr" -type l -lname '/*' -printf '%p %l\n' | while read -r link target; do
+  ln -sfn "$root$target" "$link"
+done
+
 # CPack calls it without options.
 mkdir -p "$root/tools"
 cat >"$root/tools/dpkg-shlibdeps" <<TEXT
