@@ -18,7 +18,8 @@ using flight::Failure;
 using flight::Result;
 
 constexpr unsigned bit(std::uint32_t type) noexcept { return 1u << type; }
-constexpr unsigned off = bit(FAILURE_TYPE_OFF), stuck = bit(FAILURE_TYPE_STUCK), wrong = bit(FAILURE_TYPE_WRONG);
+constexpr unsigned off_bit = bit(FAILURE_TYPE_OFF), stuck_bit = bit(FAILURE_TYPE_STUCK),
+                   wrong_bit = bit(FAILURE_TYPE_WRONG);
 
 // The units that PX4 supports, with their failure types as bits and their names in texts.
 struct Unit {
@@ -27,17 +28,17 @@ struct Unit {
     unsigned types;
 };
 constexpr std::array units{
-    Unit{FAILURE_UNIT_SENSOR_GYRO, "gyro", off | stuck},
-    Unit{FAILURE_UNIT_SENSOR_ACCEL, "accel", off | stuck},
-    Unit{FAILURE_UNIT_SENSOR_MAG, "mag", off | stuck},
-    Unit{FAILURE_UNIT_SENSOR_BARO, "baro", off | stuck},
-    Unit{FAILURE_UNIT_SENSOR_GPS, "gps", off | stuck | wrong},
-    Unit{FAILURE_UNIT_SENSOR_VIO, "vio", off},
-    Unit{FAILURE_UNIT_SENSOR_DISTANCE_SENSOR, "distance_sensor", off | stuck},
-    Unit{FAILURE_UNIT_SENSOR_AIRSPEED, "airspeed", off | stuck | wrong},
-    Unit{FAILURE_UNIT_SYSTEM_BATTERY, "battery", off},
-    Unit{FAILURE_UNIT_SYSTEM_MOTOR, "motor", off},
-    Unit{FAILURE_UNIT_SYSTEM_ESC, "esc", off | wrong},
+    Unit{FAILURE_UNIT_SENSOR_GYRO, "gyro", off_bit | stuck_bit},
+    Unit{FAILURE_UNIT_SENSOR_ACCEL, "accel", off_bit | stuck_bit},
+    Unit{FAILURE_UNIT_SENSOR_MAG, "mag", off_bit | stuck_bit},
+    Unit{FAILURE_UNIT_SENSOR_BARO, "baro", off_bit | stuck_bit},
+    Unit{FAILURE_UNIT_SENSOR_GPS, "gps", off_bit | stuck_bit | wrong_bit},
+    Unit{FAILURE_UNIT_SENSOR_VIO, "vio", off_bit},
+    Unit{FAILURE_UNIT_SENSOR_DISTANCE_SENSOR, "distance_sensor", off_bit | stuck_bit},
+    Unit{FAILURE_UNIT_SENSOR_AIRSPEED, "airspeed", off_bit | stuck_bit | wrong_bit},
+    Unit{FAILURE_UNIT_SYSTEM_BATTERY, "battery", off_bit},
+    Unit{FAILURE_UNIT_SYSTEM_MOTOR, "motor", off_bit},
+    Unit{FAILURE_UNIT_SYSTEM_ESC, "esc", off_bit | wrong_bit},
 };
 
 const Unit* find_unit(std::uint32_t id) noexcept {

@@ -64,6 +64,7 @@ SetupResult<void> set_named_numbers(Target& target, const std::vector<NamedPart>
                                     std::span<const NamedNumber<Target>> numbers,
                                     std::initializer_list<std::string_view> others) {
     std::vector<std::string_view> names(others);
+    names.reserve(others.size() + numbers.size());
     for (const auto& number : numbers) names.push_back(number.name);
     for (const auto& [name, text] : parts) {
         const auto known = parse_choice(name, names);
