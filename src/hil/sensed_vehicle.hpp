@@ -35,7 +35,6 @@ public:
     [[nodiscard]] flight::GeoPoint geo(const Vector3& local) const { return frame_.to_geo(local); }
     // Velocity relative to the air, m/s in the body frame.
     [[nodiscard]] Vector3 air_velocity() const { return truth().attitude.conjugate() * plant_->air_velocity(); }
-    [[nodiscard]] bool has_noise() const noexcept { return options_.has_noise; }
     [[nodiscard]] double step_s() const noexcept { return step_s_; }
 
 private:

@@ -40,10 +40,8 @@ constexpr double magnetic_digit = 1e-4, pressure_digit = 1e-3;  // gauss, hPa
 constexpr double nearest_m = 0.1, farthest_m = 50;              // of the distance sensor
 
 std::uint16_t centimetres_of(double metres) noexcept { return saturated<std::uint16_t>(metres * 100); }
-// The last digit of a sensor without noise.
-double dither(bool has_noise, unsigned sample, double digit) noexcept {
-    return has_noise || sample % 2 == 0 ? 0 : digit;
-}
+// PX4 takes a sensor with a hundred equal samples for a broken one. So the last digit changes with each sample.
+double dither(unsigned sample, double digit) noexcept { return sample % 2 == 0 ? 0 : digit; }
 
 std::uint16_t course_of(const Vector3& velocity) noexcept {
     constexpr double slowest = 0.1;  // m/s
@@ -86,8 +84,8 @@ void SensorMessages::add_sensors(const SensedVehicle& vehicle, FlightTime now) {
     const auto& samples = vehicle.sensors().samples();
     if (samples.magnetometer) ++magnetic_samples_;
     if (samples.barometer) ++pressure_samples_;
-    const double magnetic = dither(vehicle.has_noise(), magnetic_samples_, magnetic_digit);
-    const double pressure = dither(vehicle.has_noise(), pressure_samples_, pressure_digit);
+    const double magnetic = dither(magnetic_samples_, magnetic_digit);
+    const double pressure = dither(pressure_samples_, pressure_digit);
     const std::uint32_t updated = inertial_fields | (samples.magnetometer ? magnetic_fields : 0) |
                                   (samples.barometer ? pressure_fields | airspeed_fields : 0);
     add(msg::HilSensor{.time_usec = wire_time(now),

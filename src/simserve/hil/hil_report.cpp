@@ -99,9 +99,10 @@ std::string text_of(const std::vector<HilReport>& reports) {
         fmt::format_to(out, "vehicle {}: {}, {} of flight: {:.1f} s, {:.2f} times real time\n",
                        report.status.system.value, report.port, counted(report.steps.steps, "step"),
                        seconds(report.status.time), report.speed_reached);
-        fmt::format_to(out, "  each step: autopilot {:.1f} us (99 %: {:.1f}), simulator {:.1f} us (99 %: {:.1f})\n",
-                       microseconds_in(report.answer_median), microseconds_in(report.answer_p99),
-                       microseconds_in(report.own_median), microseconds_in(report.own_p99));
+        if (report.steps.answered != 0)
+            fmt::format_to(out, "  each step: autopilot {:.1f} us (99 %: {:.1f}), simulator {:.1f} us (99 %: {:.1f})\n",
+                           microseconds_in(report.answer_median), microseconds_in(report.answer_p99),
+                           microseconds_in(report.own_median), microseconds_in(report.own_p99));
         for (const auto& count : counts_of_pair(report))
             if (count.value != 0 && count.name != "steps" && count.name != "answered")
                 fmt::format_to(out, "  {}: {}\n", count.help, count.value);
