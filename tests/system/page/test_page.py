@@ -347,7 +347,7 @@ def test_the_address_keeps_the_state(page, server):
     assert page.url.endswith(state)
     page.get_by_role("link", name="Messages").click()
     page.get_by_role("columnheader", name="Rate /s").wait_for()
-    assert page.get_by_role("columnheader").all_inner_texts()[:3] == ["Message", "", "Rate /s"]
+    assert page.get_by_role("columnheader").all_inner_texts()[:3] == ["Message", "new or silent", "Rate /s"]
     page.go_back()
     page.locator(".uplot").wait_for()
 

@@ -92,7 +92,7 @@ def folder(tmp_path, run):
     for name in ("mavloom.toml", "router.toml"):
         (tmp_path / name).write_text(f'[[endpoint]]\nurl = "udpin://127.0.0.1:{harness.free_port()}"\n')
     assert run("shm", "write", f"docs-{os.getpid()}", "--capacity", "64k", input="one\n").status == 0
-    for name in ("key", "key.hex", "keys.hex", "vehicle.key", "link.key"):
+    for name in ("key", "key.hex", "keys.hex", "vehicle.key", "link.key", "token"):
         (tmp_path / name).write_text("07" * 32)
         (tmp_path / name).chmod(0o600)
     yield tmp_path
