@@ -328,7 +328,8 @@ def test_a_file_and_a_terminal_get_what_a_pipe_gets(run, spawn, program, tmp_pat
     os.close(ours)
 
     assert (tmp_path / "out.json").read_bytes() == piped
-    assert shown == piped
+    same = len(os.path.commonprefix([bytes(shown), piped]))
+    assert shown[same:same + 200] == piped[same:same + 200]
 
 
 def test_a_stalled_pipe_loses_nothing_below_the_buffer_bound(spawn):
