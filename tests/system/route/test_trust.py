@@ -206,7 +206,9 @@ def test_a_vehicle_may_move_between_two_machines_that_the_user_named(here, machi
     station = local(here, ends)
     beat(here, (before, VEHICLE), (after, (0, 0)), (station, STATION))
     assert reached(station, before, after) == [0]
+    there = heard_by(here.running)
     after.send(heartbeat(VEHICLE))
+    harness.wait_for(lambda: heard_by(here.running) > there, what="the vehicle at its new place")
     assert reached(station, before, after) == [0, 1]
 
 
