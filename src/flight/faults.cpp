@@ -10,7 +10,7 @@ namespace {
 using enum FaultPart;
 using enum FaultKind;
 
-constexpr double farthest = 100'000;  // m; farther away, the local plane differs too much from the earth
+constexpr double largest_error_m = 100'000;  // farther away, the local plane differs too much from the earth
 constexpr double most_motors = 16;
 
 constexpr FaultForm form(FaultPart part, FaultKind kind) { return {.part = part, .kind = kind}; }
@@ -38,7 +38,7 @@ constexpr std::array forms{
     form(gps, off),
     form(gps, stuck),
     form(gps, wrong),
-    FaultForm{gps, jump, 2, 2, -farthest, farthest, "NORTH EAST"},
+    FaultForm{gps, jump, 2, 2, -largest_error_m, largest_error_m, "NORTH EAST"},
     FaultForm{gps, drift, 2, 2, -100, 100, "NORTH EAST"},
     form(rangefinder, ok),
     form(rangefinder, off),

@@ -13,12 +13,13 @@
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/base/text.hpp"
 #include "mavloom/dialect/terms.hpp"
+#include "mavloom/endpoint/grammar.hpp"
 
 namespace mavloom::simserve {
 
 namespace {
 
-tl::unexpected<SetupError> usage(std::string text) { return setup_error(SetupCode::usage, std::move(text)); }
+using endpoint::usage;
 
 constexpr Range latitude_range{-90, 90}, longitude_range{-180, 180}, altitude_range{-500, 20'000},
     heading_range{0, 360}, speed_range{0, 60};
