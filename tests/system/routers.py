@@ -9,6 +9,7 @@ import os
 import pty
 import select
 import socket
+import tempfile
 import time
 import tty
 
@@ -191,7 +192,11 @@ class SerialEnd(End):
     def __init__(self, label=None):
         super().__init__(label)
         self.far, near = pty.openpty()
-        self.device = os.ttyname(near)
+        # The kernel gives the terminal's name to the next one after `close`. A router that looks for this line again
+        # must not find that one, which belongs to another test.
+        self.folder = tempfile.TemporaryDirectory()
+        self.device = os.path.join(self.folder.name, "tty")
+        os.symlink(os.ttyname(near), self.device)
         tty.setraw(near)  # else it echoes and edits what is written before the program has it
         os.close(near)
 
@@ -211,6 +216,7 @@ class SerialEnd(End):
             return b""
 
     def close(self):
+        self.folder.cleanup()
         if self.far >= 0:
             os.close(self.far)
         self.far = -1

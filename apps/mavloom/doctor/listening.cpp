@@ -136,12 +136,12 @@ void Listening::OfSource::examine(const observe::Heard& heard) {
 
 // Frames wait for us if the terminal is halted.
 Listening::Instant Listening::examine_some(Instant now) {
-    constexpr Nanoseconds longest_wait = 10min;
+    constexpr Nanoseconds longest_halt = 10min;
     Instant at = now;
     for (int i = 0; i < frames_between_ticks; ++i) {
         const auto entry = receiver_->next();
         if (!entry) return now;
-        const auto waited = std::clamp<Nanoseconds>(now.wall - entry->time, {}, longest_wait);
+        const auto waited = std::clamp<Nanoseconds>(now.wall - entry->time, {}, longest_halt);
         at = {now.wall - waited, now.mono - waited};
         examine(*entry, at.mono);
     }
