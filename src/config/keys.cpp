@@ -258,6 +258,7 @@ SetupResult<void> set_web_hosts(WebConfig& web, std::string_view text) {
     return {};
 }
 SetupResult<void> set_web_token_file(WebConfig& web, std::string_view text) {
+    if (text.empty()) return endpoint::usage("it names no file, so everybody could read");
     web.token_file = text;
     return {};
 }

@@ -146,6 +146,23 @@ TEST_F(HttpServer, WantsItsToken) {
     EXPECT_EQ(count(Count::wrong_token), 10u);
 }
 
+TEST_F(HttpServer, ATokenIsOfOneRequestOnly) {
+    auto options = greeter();
+    options.access.token = "0123456789abcdef";
+    options.web_sockets.push_back({"/socket", {}, {}, {}});
+    serve(std::move(options));
+    auto sut = client();
+    sut.send("GET /hello?you&token=0123456789abcdef HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    EXPECT_THAT(sut.read_until("hello you"), HasSubstr("Set-Cookie"));
+    sut.send("GET /hello?you HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
+    const auto second = sut.read_until();
+    EXPECT_THAT(second, StartsWith("HTTP/1.1 401"));
+    EXPECT_THAT(second, Not(HasSubstr("Set-Cookie")));
+    EXPECT_THAT(answer("GET /socket HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+                       "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n"),
+                StartsWith("HTTP/1.1 401"));
+}
+
 // Fetch Standard, "CORS protocol": only the origin that the answer names may read it.
 TEST_F(HttpServer, PagesOfListedOriginsMayReadAnswers) {
     auto options = greeter();
