@@ -6,8 +6,10 @@ import contextlib
 import itertools
 import os
 import pathlib
+import pty
 import random
 import re
+import select
 import shutil
 import signal
 import socket
@@ -15,6 +17,7 @@ import subprocess
 import tempfile
 import threading
 import time
+import tty
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DATA = ROOT / "tests" / "data"
@@ -95,6 +98,32 @@ def free_port(kind: int = socket.SOCK_DGRAM) -> int:
                 return port
             except OSError:
                 pass
+
+
+class SerialLine:
+    """A pseudo-terminal; the program gets `device`, and `far` is the test's end.
+
+    The kernel gives the name of a closed terminal to the next one. A program that looks for this line again must not
+    find that one, which belongs to another test: so `device` is a name of its own, which ends with the line."""
+
+    def __init__(self):
+        self.far, near = pty.openpty()
+        self._folder = tempfile.TemporaryDirectory()
+        self.device = os.path.join(self._folder.name, "tty")
+        os.symlink(os.ttyname(near), self.device)
+        tty.setraw(near)  # else it echoes and edits what is written before the program has it
+        os.close(near)
+
+    def write(self, data):
+        while data:
+            select.select([], [self.far], [], DEFAULT_TIMEOUT_S)
+            data = data[os.write(self.far, data):]
+
+    def unplug(self):
+        self._folder.cleanup()
+        if self.far >= 0:
+            os.close(self.far)
+        self.far = -1
 
 
 class Finished:

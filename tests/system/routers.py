@@ -6,12 +6,9 @@ import collections
 import itertools
 import json
 import os
-import pty
 import select
 import socket
-import tempfile
 import time
-import tty
 
 import frames
 import harness
@@ -191,35 +188,24 @@ class TcpEnd(End):
 class SerialEnd(End):
     def __init__(self, label=None):
         super().__init__(label)
-        self.far, near = pty.openpty()
-        # The kernel gives the terminal's name to the next one after `close`. A router that looks for this line again
-        # must not find that one, which belongs to another test.
-        self.folder = tempfile.TemporaryDirectory()
-        self.device = os.path.join(self.folder.name, "tty")
-        os.symlink(os.ttyname(near), self.device)
-        tty.setraw(near)  # else it echoes and edits what is written before the program has it
-        os.close(near)
+        self.line = harness.SerialLine()
+        self.device = self.line.device
 
     def fileno(self):
-        return self.far
+        return self.line.far
 
     def send(self, data):
-        while data:
-            select.select([], [self.far], [], harness.DEFAULT_TIMEOUT_S)
-            data = data[os.write(self.far, data):]
+        self.line.write(data)
 
     def _read(self):
         try:
-            return os.read(self.far, 65536)
+            return os.read(self.line.far, 65536)
         except OSError:  # nobody has the other end open
             time.sleep(0.01)
             return b""
 
     def close(self):
-        self.folder.cleanup()
-        if self.far >= 0:
-            os.close(self.far)
-        self.far = -1
+        self.line.unplug()
 
 
 def tcp_client(port, label=None) -> TcpEnd:

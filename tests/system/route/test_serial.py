@@ -4,12 +4,9 @@ import fcntl
 import json
 import os
 import pathlib
-import pty
-import select
 import shutil
 import struct
 import time
-import tty
 
 import pytest
 
@@ -19,24 +16,14 @@ import harness
 TCGETS2 = 0x802C542A
 
 
-class Port:
-    """A pseudo-terminal; the program gets `device`, the test is the far end."""
-
+class Port(harness.SerialLine):
     def __init__(self):
-        self.far, near = pty.openpty()
-        self.device = os.ttyname(near)
-        tty.setraw(near)  # else it echoes and edits what is written before the program has it
-        os.close(near)
+        super().__init__()
         os.set_blocking(self.far, False)
 
     def baud(self):
         settings = fcntl.ioctl(self.far, TCGETS2, bytes(44))
         return struct.unpack_from("I", settings, 40)[0]
-
-    def write(self, data):
-        while data:
-            select.select([], [self.far], [], harness.DEFAULT_TIMEOUT_S)
-            data = data[os.write(self.far, data):]
 
     def read(self):
         """The bytes that are there now."""
@@ -47,11 +34,6 @@ class Port:
         except OSError:  # nothing more, or nobody has the other end open
             pass
         return got
-
-    def unplug(self):
-        if self.far >= 0:
-            os.close(self.far)
-        self.far = -1
 
 
 @pytest.fixture
@@ -180,8 +162,8 @@ def test_a_port_that_is_removed_and_made_again(spawn, port, tmp_path):
             return far.read()
         return harness.wait_for(arrived, what="a frame at the port")
     through(first)
-    first.unplug()
     name.unlink()
+    first.unplug()
     relay.wait_output("trying again", stream="err")
     second = port()
     put_link(name, second.device)
