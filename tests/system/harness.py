@@ -104,13 +104,15 @@ class SerialLine:
     """A pseudo-terminal; the program gets `device`, and `far` is the test's end.
 
     The kernel gives the name of a closed terminal to the next one. A program that looks for this line again must not
-    find that one, which belongs to another test: so `device` is a name of its own, which ends with the line."""
+    find that one, which belongs to another test: so `device` is a name of its own, which ends with the line. `terminal`
+    is the kernel's, for a program that ends before the line."""
 
     def __init__(self):
         self.far, near = pty.openpty()
         self._folder = tempfile.TemporaryDirectory()
         self.device = os.path.join(self._folder.name, "tty")
-        os.symlink(os.ttyname(near), self.device)
+        self.terminal = os.ttyname(near)
+        os.symlink(self.terminal, self.device)
         tty.setraw(near)  # else it echoes and edits what is written before the program has it
         os.close(near)
 

@@ -68,13 +68,13 @@ def relay_to(spawn, url, *options):
                                             ("{}", 57600), ("{},115200", 115200)])
 def test_listen_takes_both_spellings(spawn, port, spelling, baud):
     far = port()
-    listen = spawn("listen", spelling.format(far.device), "--json", "--count", "3")
+    listen = spawn("listen", spelling.format(far.terminal), "--json", "--count", "3")
     harness.wait_for(lambda: far.baud() == baud, what=f"{baud} baud")
     far.write(b"".join(frames.heartbeats(3)))
     done = listen.wait()
 
     assert done.status == 0 and len(done.lines) == 3
-    assert json.loads(done.lines[0])["link"] == f"serial://{far.device}"
+    assert json.loads(done.lines[0])["link"] == f"serial://{far.terminal}"
     assert "port 0" not in done.stderr
 
 
@@ -116,10 +116,10 @@ def test_what_cannot_work_is_reported_at_once(run, url, status, said):
 @pytest.mark.short
 def test_a_port_is_not_shared(spawn, run, port):
     far = port()
-    listen = spawn("listen", far.device, "--count", "2")
+    listen = spawn("listen", far.terminal, "--count", "2")
     far.write(next(frames.heartbeats(1)))
     listen.wait_output("HEARTBEAT", stream="out")
-    second = run("listen", far.device)
+    second = run("listen", far.terminal)
     far.write(next(frames.heartbeats(1)))
 
     assert second.status == 1 and "another program has locked it" in second.stderr
@@ -140,7 +140,7 @@ def test_record_and_relay_take_a_port_as_source(spawn, port, tmp_path):
 @pytest.mark.short
 def test_a_deleted_byte_costs_one_frame(spawn, port):
     far = port()
-    listen = spawn("listen", far.device, "--json", "--count", "9", "--stats")
+    listen = spawn("listen", far.terminal, "--json", "--count", "9", "--stats")
     stream = bytearray(b"".join(frames.heartbeats(10)))
     del stream[5 * 21 + 12]
     far.write(bytes(stream))
