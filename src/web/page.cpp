@@ -6,6 +6,9 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
+
+#include "mavloom/http/gzip.hpp"
 
 namespace mavloom::web {
 
@@ -26,26 +29,32 @@ bool accepts_gzip(std::string_view header) noexcept {
 }
 
 struct Form {
-    std::shared_ptr<const std::string> body;
     std::string tag, headers;
 };
 
-Form make_form(std::string_view bytes, std::string_view encoding) {
-    const auto tag = fmt::format("\"{:016x}\"", hash_of(bytes));
-    return {std::make_shared<const std::string>(bytes), tag,
-            fmt::format("ETag: {}\r\nCache-Control: no-cache\r\nVary: Accept-Encoding\r\n{}", tag, encoding)};
+Form make_form(std::string tag, std::string_view encoding) {
+    auto headers = fmt::format("ETag: {}\r\nCache-Control: no-cache\r\nVary: Accept-Encoding\r\n{}", tag, encoding);
+    return {std::move(tag), std::move(headers)};
+}
+
+// Most clients take the file as it is in the program.
+std::shared_ptr<const std::string> body_of(const PageFile& file, bool is_gzip) {
+    if (is_gzip) return std::make_shared<const std::string>(file.gzip);
+    return std::make_shared<const std::string>(http::gunzip(file.gzip).value_or(""));
 }
 
 http::Route route_of(const PageFile& file) {
-    const auto plain = make_form(file.plain, ""), gzip = make_form(file.gzip, "Content-Encoding: gzip\r\n");
-    return {std::string(file.path),
-            [plain, gzip, type = std::string(file.type)](const auto& request, const auto& respond) {
-                const Form& form = accepts_gzip(request.accept_encoding) ? gzip : plain;
+    const auto hash = hash_of(file.gzip);
+    const auto plain = make_form(fmt::format("\"{:016x}\"", hash), "");
+    const auto gzip = make_form(fmt::format("\"{:016x}-gzip\"", hash), "Content-Encoding: gzip\r\n");
+    return {std::string(file.path), [plain, gzip, file](const auto& request, const auto& respond) {
+                const bool is_gzip = accepts_gzip(request.accept_encoding);
+                const Form& form = is_gzip ? gzip : plain;
                 const bool is_known = request.if_none_match.find(form.tag) != std::string::npos;
                 respond({.status = is_known ? 304 : 200,
-                         .content_type = type,
+                         .content_type = std::string(file.type),
                          .headers = form.headers,
-                         .body = is_known ? nullptr : form.body});
+                         .body = is_known ? nullptr : body_of(file, is_gzip)});
             }};
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The assembler copies the files that cmake/MavloomPage.cmake prepared, each as it is and compressed.
+// The assembler copies the files that cmake/MavloomPage.cmake compressed.
 #include "web/page.hpp"
 
 // Each file is followed by a zero.
@@ -12,14 +12,10 @@
     }
 // NOLINTEND(bugprone-macro-parentheses)
 
-MAVLOOM_PAGE_FILE(mavloom_page_html, "index.html")
-MAVLOOM_PAGE_FILE(mavloom_page_html_gz, "index.html.gz")
-MAVLOOM_PAGE_FILE(mavloom_page_js, "app.js")
-MAVLOOM_PAGE_FILE(mavloom_page_js_gz, "app.js.gz")
-MAVLOOM_PAGE_FILE(mavloom_page_css, "app.css")
-MAVLOOM_PAGE_FILE(mavloom_page_css_gz, "app.css.gz")
-MAVLOOM_PAGE_FILE(mavloom_page_licences, "licences.txt")
-MAVLOOM_PAGE_FILE(mavloom_page_licences_gz, "licences.txt.gz")
+MAVLOOM_PAGE_FILE(mavloom_page_html, "index.html.gz")
+MAVLOOM_PAGE_FILE(mavloom_page_js, "app.js.gz")
+MAVLOOM_PAGE_FILE(mavloom_page_css, "app.css.gz")
+MAVLOOM_PAGE_FILE(mavloom_page_licences, "licences.txt.gz")
 
 namespace mavloom::web {
 
@@ -28,14 +24,10 @@ const std::array<PageFile, 4>& page_files() {
         return std::string_view(from, static_cast<std::size_t>(end - from));
     };
     static const std::array<PageFile, 4> files{
-        {{"/", "text/html; charset=utf-8", view(mavloom_page_html, mavloom_page_html_end),
-          view(mavloom_page_html_gz, mavloom_page_html_gz_end)},
-         {"/app.js", "text/javascript; charset=utf-8", view(mavloom_page_js, mavloom_page_js_end),
-          view(mavloom_page_js_gz, mavloom_page_js_gz_end)},
-         {"/app.css", "text/css; charset=utf-8", view(mavloom_page_css, mavloom_page_css_end),
-          view(mavloom_page_css_gz, mavloom_page_css_gz_end)},
-         {"/licences.txt", "text/plain; charset=utf-8", view(mavloom_page_licences, mavloom_page_licences_end),
-          view(mavloom_page_licences_gz, mavloom_page_licences_gz_end)}}};
+        {{"/", "text/html; charset=utf-8", view(mavloom_page_html, mavloom_page_html_end)},
+         {"/app.js", "text/javascript; charset=utf-8", view(mavloom_page_js, mavloom_page_js_end)},
+         {"/app.css", "text/css; charset=utf-8", view(mavloom_page_css, mavloom_page_css_end)},
+         {"/licences.txt", "text/plain; charset=utf-8", view(mavloom_page_licences, mavloom_page_licences_end)}}};
     return files;
 }
 
