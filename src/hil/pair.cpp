@@ -2,8 +2,8 @@
 #include "mavloom/hil/pair.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "hil/outputs.hpp"
 #include "hil/sensed_vehicle.hpp"
 #include "hil/sensor_messages.hpp"
 #include "mavloom/msg/command_long.hpp"
@@ -21,8 +21,6 @@ namespace mavloom::hil {
 namespace {
 
 constexpr ComponentId simulator_component{51};  // as in jMAVSim
-
-bool is_in_range(double value, bool is_motor) noexcept { return value <= 1 && value >= (is_motor ? 0 : -1); }
 
 // Of a request for a message; 0: never.
 Nanoseconds interval_of(const msg::CommandLong& command) noexcept {
@@ -107,18 +105,11 @@ private:
         apply(message.controls);
         return Heard::controls;
     }
-    // The plant takes values beyond their range as the limit.
-    void apply(const std::array<float, 16>& controls) {
-        bool is_beyond = false, is_no_number = false;
-        for (std::size_t i = 0; i < vehicle_.channels().used; ++i) {
-            const auto value = static_cast<double>(controls[i]);
-            const bool is_number = std::isfinite(value);
-            outputs_[i] = is_number ? value : 0;
-            is_no_number |= !is_number;
-            is_beyond |= is_number && !is_in_range(value, vehicle_.channels().is_motor[i]);
-        }
-        counters_.clamped += is_beyond ? 1 : 0;
-        counters_.not_numbers += is_no_number ? 1 : 0;
+    void apply(const Controls& controls) {
+        const ReadOutputs read = read_outputs(controls, vehicle_.kind(), vehicle_.channels());
+        outputs_ = read.outputs;
+        counters_.clamped += read.has_beyond ? 1 : 0;
+        counters_.not_numbers += read.has_no_number ? 1 : 0;
     }
     Heard receive_command(const msg::CommandLong& command) {
         if (command.command != msg::MAV_CMD_SET_MESSAGE_INTERVAL) return Heard::nothing;

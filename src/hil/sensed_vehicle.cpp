@@ -28,13 +28,11 @@ flight::SensorTiming timing_of(const SensorRates& rates) {
 SensedVehicle::SensedVehicle(const flight::VehicleOptions& options, const SensorRates& rates)
     : options_(options),
       step_s_(timing_of(rates).step_s),
-      air_density_(flight::density_at(options.home.altitude_m)),
       plant_(flight::make_plant(options.kind, options.body)),
       sensors_(options.has_noise ? std::optional(options.noise) : std::nullopt, options.seed,
                flight::magnetic_field(place_of(options.home)), timing_of(rates)),
       wind_(options.wind, options.seed ^ wind_stream, step_s_),
       frame_(place_of(options.home)) {
-    around_.air_density = air_density_;
     sensors_.acquire_gps(true);
     place_at_start();
 }
@@ -47,6 +45,7 @@ void SensedVehicle::place_at_start() {
 void SensedVehicle::step(const flight::Outputs& outputs) {
     wind_.step();
     around_.wind = wind_.velocity();
+    around_.air_density = flight::density_at(frame_.origin().altitude - truth().position.z());
     if (push_left_ <= 0) around_.push = around_.turn = Vector3::Zero();
     push_left_ -= step_s_;
     plant_->step(outputs, around_, step_s_);
@@ -56,7 +55,7 @@ void SensedVehicle::step(const flight::Outputs& outputs) {
 // A resting vehicle does not move, and its motors do not shake it.
 void SensedVehicle::sense() {
     const bool at_rest = plant_->touches_ground() && truth().velocity.squaredNorm() < 1e-4 && plant_->thrust() < 0.2;
-    sensors_.step(truth(), plant_->air_velocity(), at_rest, frame_.origin().altitude, air_density_);
+    sensors_.step(truth(), plant_->air_velocity(), at_rest, frame_.origin().altitude, air_density());
 }
 
 void SensedVehicle::push(const Vector3& velocity, const Vector3& rates) {

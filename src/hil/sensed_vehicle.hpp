@@ -22,7 +22,8 @@ public:
     void step(const flight::Outputs& outputs);
     // Puts it at rest where it started.
     void place_at_start();
-    // Within `push_time`, the velocity (m/s, local frame) and the rates (rad/s, body frame) change by so much.
+    // Within `push_time`, the velocity (m/s, local frame) and the rates (rad/s, body frame) change by so much, unless
+    // wheels hold the vehicle.
     static constexpr double push_time = 0.5;  // s
     void push(const Vector3& velocity, const Vector3& rates);
     void set_wind(const flight::Wind& wind);
@@ -30,18 +31,20 @@ public:
 
     [[nodiscard]] const flight::Kinematics& truth() const noexcept { return plant_->motion(); }
     [[nodiscard]] const flight::Sensors& sensors() const noexcept { return sensors_; }
+    [[nodiscard]] flight::Kind kind() const noexcept { return options_.kind; }
     [[nodiscard]] const flight::Channels& channels() const noexcept { return plant_->channels(); }
     [[nodiscard]] bool touches_ground() const noexcept { return plant_->touches_ground(); }
     [[nodiscard]] flight::GeoPoint geo(const Vector3& local) const { return frame_.to_geo(local); }
     // Velocity relative to the air, m/s in the body frame.
     [[nodiscard]] Vector3 air_velocity() const { return truth().attitude.conjugate() * plant_->air_velocity(); }
+    [[nodiscard]] double air_density() const noexcept { return around_.air_density; }  // kg/m^3
     [[nodiscard]] double step_s() const noexcept { return step_s_; }
 
 private:
     void sense();
 
     const flight::VehicleOptions options_;
-    const double step_s_, air_density_;
+    const double step_s_;
     std::unique_ptr<flight::Plant> plant_;
     flight::Sensors sensors_;
     flight::WindField wind_;

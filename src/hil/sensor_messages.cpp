@@ -43,6 +43,12 @@ std::uint16_t centimetres_of(double metres) noexcept { return saturated<std::uin
 // PX4 takes a sensor with a hundred equal samples for a broken one. So the last digit changes with each sample.
 double dither(unsigned sample, double digit) noexcept { return sample % 2 == 0 ? 0 : digit; }
 
+// In cm/s. A pitot tube measures the air from ahead, and its instrument assumes the density at sea level.
+std::uint16_t indicated_airspeed(double ahead, double air_density) noexcept {
+    constexpr double sea_level_density = 1.225;  // kg/m^3
+    return saturated<std::uint16_t>(std::max(ahead, 0.0) * std::sqrt(air_density / sea_level_density) * 100);
+}
+
 std::uint16_t course_of(const Vector3& velocity) noexcept {
     constexpr double slowest = 0.1;  // m/s
     if (flight::horizontal_length(velocity) < slowest) return UINT16_MAX;
@@ -138,7 +144,7 @@ void SensorMessages::add_truth(const SensedVehicle& vehicle, FlightTime now) {
     const flight::Kinematics& truth = vehicle.truth();
     const flight::GeoPoint place = vehicle.geo(truth.position);
     const Vector3 force = truth.attitude.conjugate() * (truth.acceleration - Vector3(0, 0, flight::gravity)) * 1000;
-    const auto airspeed = saturated<std::uint16_t>(vehicle.air_velocity().x() * 100);
+    const Vector3 air = vehicle.air_velocity();
     add(msg::HilStateQuaternion{.time_usec = wire_time(now),
                                 .attitude_quaternion = {as_float(truth.attitude.w()), as_float(truth.attitude.x()),
                                                         as_float(truth.attitude.y()), as_float(truth.attitude.z())},
@@ -151,8 +157,8 @@ void SensorMessages::add_truth(const SensedVehicle& vehicle, FlightTime now) {
                                 .vx = to_cm_s(truth.velocity.x()),
                                 .vy = to_cm_s(truth.velocity.y()),
                                 .vz = to_cm_s(truth.velocity.z()),
-                                .ind_airspeed = airspeed,
-                                .true_airspeed = airspeed,
+                                .ind_airspeed = indicated_airspeed(air.x(), vehicle.air_density()),
+                                .true_airspeed = saturated<std::uint16_t>(air.norm() * 100),
                                 .xacc = saturated<std::int16_t>(force.x()),
                                 .yacc = saturated<std::int16_t>(force.y()),
                                 .zacc = saturated<std::int16_t>(force.z())});

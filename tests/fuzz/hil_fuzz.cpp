@@ -50,6 +50,7 @@ private:
         options.vehicle.has_noise = (bits & 4) != 0;
         options.rates.distance_hz = (bits & 8) != 0 ? 100 : 0;
         options.rates.imu_hz = (bits & 16) != 0 ? 1000 : 250;
+        options.vehicle.kind = static_cast<flight::Kind>((bits >> 5) % 3);
         return options;
     }
 

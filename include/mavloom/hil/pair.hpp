@@ -19,7 +19,7 @@
 namespace mavloom::hil {
 
 struct PairOptions {
-    flight::VehicleOptions vehicle{};  // a quad
+    flight::VehicleOptions vehicle{};
     SensorRates rates{};
     double speed = 1;            // as for LockStep
     bool has_own_clock = false;  // a flight controller with SYS_HITL: flies in real time, and gets no true state

@@ -42,16 +42,17 @@ void FixedWing::step(const Outputs& outputs, const Surroundings& around, double 
                   .height = around.ground - motion_.position.z(),
                   .brakes = throttle == 0,
                   .controls = {servo_output(outputs[0]), servo_output(outputs[1]), servo_output(outputs[3])}};
-    move(now, around.supply, dt);
+    move(now, around, dt);
     air_velocity_ = motion_.velocity - around.wind;
     thrust_ = motor_;
     load_ = motor_ * motor_ / (cruise_motor * cruise_motor);
 }
 
-void FixedWing::move(const Now& now, double supply, double dt) {
-    const Vector3 force = motion_.attitude * wing::force(now.air, motor_ * std::sqrt(std::clamp(supply, 0.0, 1.2)));
+void FixedWing::move(const Now& now, const Surroundings& around, double dt) {
+    const double supplied = motor_ * std::sqrt(std::clamp(around.supply, 0.0, 1.2));
+    const Vector3 force = motion_.attitude * wing::force(now.air, supplied);
     const double carried = gear_force(now.height);
-    Vector3 acceleration = force / mass;
+    Vector3 acceleration = force / mass + around.push;
     acceleration.z() += gravity - carried / mass;
     Vector3 velocity = motion_.velocity + acceleration * dt;
     touches_ground_ = carried > 0;
@@ -63,6 +64,7 @@ void FixedWing::move(const Now& now, double supply, double dt) {
     }
     if (now.height < deepest) velocity.z() = std::min(velocity.z(), 0.0);
     Vector3 rates = touches_ground_ ? turned_on_wheels(now, dt) : turned_by_air(now, dt);
+    rates += around.turn * dt;
     if (stands && rates.norm() < 1e-5) rates.setZero();
     integrate_step((velocity - motion_.velocity) / dt, rates, dt);
 }

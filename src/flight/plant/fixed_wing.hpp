@@ -32,7 +32,7 @@ private:
         bool brakes = false;
         Vector3 controls = Vector3::Zero();  // ailerons, elevator, rudder
     };
-    void move(const Now& now, double supply, double dt);
+    void move(const Now& now, const Surroundings& around, double dt);
     // The upward force of the gear, in newtons.
     [[nodiscard]] double gear_force(double height) const;
     // The velocity after wheels and brakes have acted on its horizontal part for one step.

@@ -45,7 +45,8 @@ struct Surroundings {
     double ground = 0;               // `position.z` of the ground below
     double air_density = 1.225;      // kg/m^3
     double supply = 1;               // battery voltage relative to full; scales the thrust
-    // Pushes and turns a multicopter from outside: m/s^2 in the local frame, rad/s^2 in the body frame.
+    // Pushes and turns the vehicle from outside: m/s^2 in the local frame, rad/s^2 in the body frame. A rover's wheels
+    // hold it sideways, and against turns.
     Vector3 push = Vector3::Zero(), turn = Vector3::Zero();
 };
 

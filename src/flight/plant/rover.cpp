@@ -26,6 +26,7 @@ void Rover::step(const Outputs& outputs, const Surroundings& around, double dt) 
     const double before = speed_;
     drive(servo_output(outputs[0]) * std::min(around.supply, 1.0), dt);
     steer(servo_output(outputs[1]), dt);
+    speed_ += (around.push.x() * std::cos(heading_) + around.push.y() * std::sin(heading_)) * dt;
     const Vector3 rates{0, 0, speed_ * curvature_};
     heading_ += rates.z() * dt;
     const double sinking = std::clamp((around.ground - motion_.position.z()) / dt, -2.0, 2.0);

@@ -241,16 +241,6 @@ SetupResult<void> check_sections(const Scenario& scenario, const config::Documen
     return hil_error(fmt::format("{}: not with hil: {}", scenario.endpoints.front().endpoint.label(), it_sends));
 }
 
-SetupResult<void> check_hil_vehicles(const Scenario& scenario, const config::Document& document) {
-    for (const config::Section& section : scenario.sections) {
-        if (section.name != vehicle_section) continue;
-        const auto kind = std::ranges::find(section.settings, "kind", &config::Setting::key);
-        if (kind != section.settings.end() && kind->value != "quad" && is_given(*kind))
-            return wrong_setting(document, *kind, "with hil, the vehicle is a quad; its body may have 4, 6 or 8 rotors");
-    }
-    return {};
-}
-
 // Without `hil`.
 SetupResult<void> check_no_hil(const Scenario& scenario, const config::Document& document) {
     const auto* const sensors = setting_of(scenario, sim_section, "hil_sensors");
@@ -273,7 +263,6 @@ SetupResult<void> complete_hil(Scenario& scenario, const config::Document& docum
     if (auto good = check_imu_rate(variables, scenario.hil_rates); !good) return good;
     if (auto good = check_settings(scenario, document); !good) return good;
     if (auto good = check_sections(scenario, document); !good) return good;
-    if (auto good = check_hil_vehicles(scenario, document); !good) return good;
     std::size_t vehicles = 0;
     for (const ScenarioVehicle& group : scenario.vehicles) vehicles += group.count;
     if (auto good = check_board(scenario, vehicles); !good) return good;

@@ -6,7 +6,7 @@
 - It answers each HIL_SENSOR of id 0 with HIL_ACTUATOR_CONTROLS of the same time.
 - It is silent while the time stands still or goes back.
 
-It takes off, holds, lands and disarms by itself.
+It takes off, holds, lands and disarms by itself; as a rover, it drives, turns and stops (stand_in_flights.py).
 
 It takes PX4's command line: px4 [-d] [-i INSTANCE] [-w FOLDER] [FOLDER ...]. Its own options are in PX4_STAND_IN, as
 JSON (see Options). It prints a JSON object a line. Everything on the wire is coded by pymavlink."""
@@ -24,9 +24,10 @@ import time
 os.environ["MAVLINK20"] = "1"
 from pymavlink.dialects.v20 import common as mavlink  # noqa: E402
 
-from stand_in_pilot import Pilot, euler  # noqa: E402
+from stand_in_flights import FLIGHTS, State, tell  # noqa: E402
+from stand_in_pilot import euler  # noqa: E402
 
-GYRO, MAGNETOMETER, BAROMETER = 0x038, 0x1C0, 0x1A00
+GYRO, MAGNETOMETER, BAROMETER, AIRSPEED = 0x038, 0x1C0, 0x1A00, 0x400
 ARMED, DISARMED = 1 | 128, 1  # `mode` of HIL_ACTUATOR_CONTROLS
 LOCKSTEP = 1                  # `flags`
 GROUND_STATION = 14550
@@ -35,10 +36,11 @@ GROUND_STATION = 14550
 @dataclasses.dataclass
 class Options:
     port: int = 0               # instead of 4560 + instance
+    vehicle: str = "quad"       # "plane", "rover": what it flies or drives, with the outputs of PX4's airframe for it
     boot_steps: int = 35        # HIL_SENSOR without an answer
     arm_at: float = 1.0         # s of flight after the first answer
     height: float = 5.0         # m
-    hold: float = 3.0           # s
+    hold: float = 3.0           # s; a plane circles before, and a rover turns
     slow: float = 0.0           # s of wall time before each answer
     silent_at: float = math.inf   # s after the first answer: no answers any more
     silent_steps: float = math.inf  # so many steps long
@@ -49,23 +51,18 @@ class Options:
     telemetry: bool = False     # from port 18570 + instance to 14550, and then to the first that sends to it
 
 
-@dataclasses.dataclass
-class State:
-    place: tuple = (0.0, 0.0, 0.0)     # m north, east, up of the start
-    velocity: tuple = (0.0, 0.0, 0.0)  # m/s north, east, up
-    attitude: tuple = (1.0, 0.0, 0.0, 0.0)
-    degrees: tuple = (0, 0, 0)         # latitude and longitude in 1e-7 degrees, mm above mean sea level
-
-
-def tell(what, **more):
-    print(json.dumps({"stand_in": what, **more}), flush=True)
+def airspeed_of(sensor):
+    """The true airspeed by pitot tube, barometer and thermometer, as PX4 computes it."""
+    density = 100 * sensor.abs_pressure / (287.1 * (sensor.temperature + 273.15))
+    return math.sqrt(2 * 100 * max(sensor.diff_pressure, 0) / density)
 
 
 class Sensors:
     """Compares the sensors with the truth."""
 
     def __init__(self):
-        self.counts, self.first, self.worst = {}, {}, {"baro_m": 0.0, "gps_m": 0.0, "speed_m_s": 0.0}
+        self.counts, self.first = {}, {}
+        self.worst = {"baro_m": 0.0, "gps_m": 0.0, "speed_m_s": 0.0, "airspeed_m_s": 0.0}
         self.rest = []  # accelerations and magnetic fields before take-off
         self.digest = hashlib.sha256()  # of the first 200 HIL_SENSOR
 
@@ -75,15 +72,18 @@ class Sensors:
     def compare(self, name, value):
         self.worst[name] = max(self.worst[name], value)
 
-    def on_sensor(self, message, up):
-        for name, bits in (("gyro", GYRO), ("mag", MAGNETOMETER), ("baro", BAROMETER)):
+    def on_sensor(self, message, state):
+        for name, bits in (("gyro", GYRO), ("mag", MAGNETOMETER), ("baro", BAROMETER), ("airspeed", AIRSPEED)):
             if message.fields_updated & bits == bits:
                 self.count(name)
         if self.counts.get("gyro", 0) <= 200:
             self.digest.update(message.to_json().encode())
         if message.fields_updated & BAROMETER == BAROMETER:
             altitude = 44330.77 * (1 - (message.abs_pressure / 1013.25) ** 0.190263)
+            up = state.place[2]
             self.compare("baro_m", abs(altitude - self.first.setdefault("baro", altitude - up) - up))
+        if message.fields_updated & AIRSPEED == AIRSPEED and state.airspeed > 8:
+            self.compare("airspeed_m_s", abs(airspeed_of(message) - state.airspeed))
 
     def on_rest(self, message):
         if message.fields_updated & MAGNETOMETER == MAGNETOMETER:
@@ -96,49 +96,12 @@ class Sensors:
                 "compass_deg": math.degrees(math.atan2(-mean[4], mean[3]))}
 
 
-class Flight:
-    """Phases of the flight by the time since the first answer: rest, climb, hold, descend, rest."""
-
-    def __init__(self, options):
-        self.options, self.phase, self.since, self.highest = options, "rest", 0.0, 0.0
-        self.pilot = None
-
-    @property
-    def is_armed(self):
-        return self.phase in ("climb", "hold", "descend")
-
-    def to(self, phase, at, state):
-        self.phase, self.since = phase, at
-        tell(phase, flight_s=round(at, 3), place=[round(value, 3) for value in state.place])
-
-    def step(self, at, state):
-        up, options = state.place[2], self.options
-        self.highest = max(self.highest, up)
-        if self.phase == "rest" and at >= options.arm_at:
-            self.pilot = Pilot(euler(state.attitude)[2])
-            self.to("climb", at, state)
-        elif self.phase == "climb" and abs(up - options.height) < 0.3 and abs(state.velocity[2]) < 0.3:
-            self.to("hold", at, state)
-        elif self.phase == "hold" and at - self.since >= options.hold:
-            self.to("descend", at, state)
-        elif self.phase == "descend" and (up > 0.15 or abs(state.velocity[2]) > 0.1):
-            self.since = at
-        elif self.phase == "descend" and at - self.since > 1:
-            self.to("landed", at, state)
-
-    def outputs(self, state, rates, dt):
-        if not self.is_armed:
-            return [0.0] * 4
-        height = -5.0 if self.phase == "descend" else self.options.height
-        return self.pilot.outputs(state, rates, height, dt)
-
-
 class StandIn:
     def __init__(self, instance, options):
         self.options, self.instance = options, instance
         self.mav, self.station_mav = (mavlink.MAVLink(None, instance + 1, 1) for _ in range(2))
         self.state, self.home = State(), None
-        self.sensors, self.flight = Sensors(), Flight(options)
+        self.sensors, self.flight = Sensors(), FLIGHTS[options.vehicle](options)
         self.steps = self.answers = self.time_errors = self.skip = 0
         self.newest_us, self.began_us, self.ended = 0, None, False
         self.link = self.station = None
@@ -206,10 +169,11 @@ class StandIn:
         self.home = self.home or (message.lat, message.lon, message.alt)
         self.state = State(self.from_home(message.lat, message.lon, message.alt),
                            (message.vx / 100, message.vy / 100, -message.vz / 100),
-                           tuple(message.attitude_quaternion), (message.lat, message.lon, message.alt))
+                           tuple(message.attitude_quaternion), (message.lat, message.lon, message.alt),
+                           message.true_airspeed / 100)
 
     def on_hil_sensor(self, message):
-        self.sensors.on_sensor(message, self.state.place[2])
+        self.sensors.on_sensor(message, self.state)
         if message.id != 0:
             return
         self.steps += 1
@@ -261,14 +225,14 @@ class StandIn:
 
     def controls(self, time_us, outputs):
         armed = self.flight.is_armed
-        if armed and self.options.faulty and self.answers % 50 == 0:
-            outputs = [{"nan": math.nan, "beyond": 7.0}[self.options.faulty]] * 4
-        values = [*outputs, *[0.0] * 12]
+        if armed and self.options.faulty and self.answers % 50 == 0 and self.flight.phase != "stop":
+            outputs = [{"nan": math.nan, "beyond": 7.0}[self.options.faulty]] * 16
+        values = [*outputs, *[0.0] * (16 - len(outputs))]
         return mavlink.MAVLink_hil_actuator_controls_message(time_us, values, ARMED if armed else DISARMED, LOCKSTEP)
 
     def report(self, at):
         tell("report", flight_s=at, steps=self.steps, answers=self.answers, time_errors=self.time_errors,
-             highest_m=self.flight.highest, place=self.state.place,
+             highest_m=self.flight.highest, place=self.state.place, **self.flight.figures(),
              heading_deg=math.degrees(euler(self.state.attitude)[2]), counts=self.sensors.counts,
              rest=self.sensors.mean_at_rest(), worst=self.sensors.worst, digest=self.sensors.digest.hexdigest())
         self.ended = not self.options.stay
