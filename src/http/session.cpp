@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/http/session.hpp"
 
+#include <sys/socket.h>
+
+#include <algorithm>
 #include <array>
+#include <cassert>
 #include <utility>
+
+#include "http/core.hpp"
 
 #include "http/frames.hpp"
 
@@ -11,7 +17,13 @@ namespace mavloom::http {
 static_assert(net::BlockQueue::classes == 3);
 
 Session::Session(const SessionOptions& options, Peer peer, Orders orders)
-    : peer_(std::move(peer)), orders_(std::move(orders)), pack_bytes_(options.pack_bytes), queue_(options.queue) {}
+    : peer_(std::move(peer)),
+      orders_(std::move(orders)),
+      pack_bytes_(options.pack_bytes),
+      writes_at_once_(options.writes_at_once),
+      queue_(options.queue) {
+    assert(!writes_at_once_ || pack_bytes_ != 0);
+}
 
 // If each block is a message, its first byte in the queue is its kind.
 void Session::push(ByteView block, std::uint8_t block_class, std::uint64_t key, MonoTime now, Kind kind) {
@@ -32,13 +44,45 @@ void Session::count_drops() {
     for (std::size_t i = 0; i < counters_.dropped.size(); ++i) counters_.dropped[i].set(queue_.dropped()[i]);
 }
 
-void Session::flush() {
+std::size_t Session::flush() {
+    std::size_t sent = 0;
     {
         const std::lock_guard lock(mutex_);
-        if (is_writing_ || has_ended_ || queue_.empty()) return;
-        is_writing_ = true;
+        if (is_writing_ || has_ended_ || queue_.empty()) return 0;
+        if (writer_ != nullptr) sent = write_at_once();
+        is_writing_ = !queue_.empty() || !rest_.empty();
+        if (!is_writing_) return sent;
     }
     orders_.write();
+    return sent;
+}
+
+// Makes one system call.
+std::size_t Session::write_at_once() {
+    rest_bytes_ = take_some(rest_, write_size, mono_now(), [&] { take_packed(rest_, writer_); });
+    const auto sent = std::max<ssize_t>(::send(socket_, rest_.data(), rest_.size(), MSG_DONTWAIT | MSG_NOSIGNAL), 0);
+    rest_.erase(rest_.begin(), rest_.begin() + sent);
+    return rest_.empty() ? std::exchange(rest_bytes_, 0) : 0;
+}
+
+void Session::lend(int socket, FrameWriter& writer) {
+    if (!writes_at_once_) return;
+    const std::lock_guard lock(mutex_);
+    socket_ = socket;
+    writer_ = &writer;
+}
+
+void Session::withdraw() {
+    const std::lock_guard lock(mutex_);
+    writer_ = nullptr;
+}
+
+std::size_t Session::take_begun(std::vector<std::uint8_t>& output) {
+    const std::lock_guard lock(mutex_);
+    is_writing_ = true;
+    output.insert(output.end(), rest_.begin(), rest_.end());
+    rest_.clear();
+    return std::exchange(rest_bytes_, 0);
 }
 
 std::size_t Session::take(std::vector<std::uint8_t>& output, std::size_t up_to, FrameWriter& writer, MonoTime now) {

@@ -41,7 +41,8 @@ public:
           socket_(std::move(socket)),
           timer_(socket_.get_executor()),
           reader_(setup_.session, setup_.is_client, *this),
-          writer_(setup_.is_client) {
+          writer_(setup_.is_client),
+          flush_writer_(setup_.is_client) {
         error_code ignored;
         socket_.non_blocking(true, ignored);
     }
@@ -157,12 +158,14 @@ private:
     void write() {
         if (is_writing_ || is_final_) return;
         output_.clear();
+        taken_bytes_ = session_->take_begun(output_);
         if (std::exchange(owes_pong_, false)) writer_.append(output_, Opcode::pong, pong_);
         if (std::exchange(owes_ping_, false)) writer_.append(output_, Opcode::ping, {});
-        if (!has_ended_ && !has_closed_) taken_bytes_ = session_->take(output_, write_size, writer_, mono_now());
+        if (!has_ended_ && !has_closed_) taken_bytes_ += session_->take(output_, write_size, writer_, mono_now());
         if (output_.empty() && close_with_ != close_code::none && !has_closed_) append_close();
         if (!output_.empty()) send();
         else if (has_ended_ && has_closed_) drain();
+        else if (!has_ended_ && !has_closed_) session_->lend(socket_.native_handle(), flush_writer_);
     }
     void send() {
         is_writing_ = true;
@@ -176,6 +179,7 @@ private:
     }
     void append_close() {
         has_closed_ = true;
+        taken_bytes_ += session_->take_begun(output_);
         std::vector<std::uint8_t> payload{static_cast<std::uint8_t>(close_with_ >> 8),
                                           static_cast<std::uint8_t>(close_with_ & 0xff)};
         const auto text = std::string_view(close_text_).substr(0, 123);
@@ -261,6 +265,7 @@ private:
         if (events_.on_closed) events_.on_closed(closed);
     }
     void close_socket() {
+        session_->withdraw();
         error_code ignored;
         socket_.close(ignored);
     }
@@ -269,7 +274,7 @@ private:
     Tcp::socket socket_;
     asio::steady_timer timer_;  // looks for silence; once the session closes, ends the wait for the peer
     FrameReader reader_;
-    FrameWriter writer_;
+    FrameWriter writer_, flush_writer_;
     std::vector<std::uint8_t> output_, pong_;
     std::size_t taken_bytes_ = 0;  // of blocks, in `output_`
     struct Message {

@@ -10,6 +10,7 @@ static constexpr std::uint16_t normal_closure = 1000;  // RFC 6455, section 7.4.
 http::SessionOptions session_options() {
     http::SessionOptions options;
     options.pack_bytes = 8192;
+    options.writes_at_once = true;
     options.queue.max_age.fill(std::chrono::hours(24));  // Links' queue drops what is too old
     return options;
 }
@@ -48,12 +49,12 @@ http::SessionEvents Sessions::add(const std::shared_ptr<http::Session>& session,
                 }};
 }
 
-void Sessions::send(link::PeerNumber peer, std::span<const iovec> frames) {
+std::size_t Sessions::send(link::PeerNumber peer, std::span<const iovec> frames) {
     const auto session = find(peer);
-    if (!session) return;
+    if (!session) return 0;
     for (const iovec& piece : frames)
         session->push({static_cast<const std::uint8_t*>(piece.iov_base), piece.iov_len}, 0, 0, mono_now());
-    session->flush();
+    return session->flush();
 }
 
 void Sessions::close(link::PeerNumber peer, std::string_view why) {

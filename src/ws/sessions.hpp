@@ -26,7 +26,7 @@ public:
     // A WebSocket was opened. `address`: of a client.
     [[nodiscard]] http::SessionEvents add(const std::shared_ptr<http::Session>& session,
                                           const std::optional<net::Address>& address);
-    void send(link::PeerNumber peer, std::span<const iovec> frames);
+    std::size_t send(link::PeerNumber peer, std::span<const iovec> frames);
     void close(link::PeerNumber peer, std::string_view why);
     void resume();
     // WebSockets that ended because of a message that cannot be MAVLink.

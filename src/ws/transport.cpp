@@ -25,7 +25,9 @@ class WebSockets : public link::Transport {
 public:
     WebSockets(const endpoint::Endpoint& endpoint, std::shared_ptr<link::Mailbox> mailbox)
         : endpoint_(endpoint), mailbox_(mailbox), sessions_(std::make_shared<Sessions>(std::move(mailbox))) {}
-    void send(link::PeerNumber peer, std::span<const iovec> frames) override { sessions_->send(peer, frames); }
+    std::size_t send(link::PeerNumber peer, std::span<const iovec> frames) override {
+        return sessions_->send(peer, frames);
+    }
     void close(link::PeerNumber peer, std::string_view why) override { sessions_->close(peer, why); }
     void resume() override { sessions_->resume(); }
 

@@ -13,7 +13,7 @@ import pytest
 from test_package import BUILD, call
 from test_wheel import check_use, make_wheel
 
-pytestmark = pytest.mark.timeout(600)
+pytestmark = pytest.mark.timeout(1800)
 
 LARGEST_KIB = 7812  # 8 MB, that mavloom.deb installs
 NAMES = ("mavloom", "libmavloom-dev", "python3-mavloom")

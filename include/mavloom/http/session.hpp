@@ -2,8 +2,9 @@
 // One WebSocket (RFC 6455), accepted by a Server or opened by a Client; or one stream, an answer without a length.
 //
 // Messages arrive whole, on the http thread. Any thread may send: blocks wait in a bounded queue by class and key
-// (net/block_queue.hpp), and one writer sends them. A peer that reads nothing fills only this queue; it loses telemetry
-// first. Peers that do not answer pings are disconnected.
+// (net/block_queue.hpp), and one writer sends them: the http thread, or with `writes_at_once` the thread that calls
+// `flush`. A peer that reads nothing fills only this queue; it loses telemetry first. Peers that do not answer pings
+// are disconnected.
 #pragma once
 
 #include <array>
@@ -39,6 +40,9 @@ struct SessionOptions {
     net::BlockQueue::Limits queue{.max_bytes = 192 * 1024};
     // Sends as many waiting blocks in one binary message as fit into so many bytes. 0: each block is a message.
     std::size_t pack_bytes = 0;
+    // `flush` writes to the socket itself, unless the http thread has something to write. It spares the wake-up of that
+    // thread. Only with `pack_bytes`.
+    bool writes_at_once = false;
     // A peer from which nothing arrived for so long gets a ping. The session ends if nothing arrives for as long again.
     std::chrono::milliseconds silence{10'000};
 };
@@ -57,7 +61,7 @@ struct SessionEvents {
     // Returns false if it cannot take the message yet. Then nothing more is read, and it gets the same message again
     // after `Session::resume`.
     std::function<bool(ByteView, Kind)> on_message{};
-    std::function<void(std::size_t bytes)> on_sent{};  // the kernel has taken these bytes of blocks
+    std::function<void(std::size_t bytes)> on_sent{};  // the kernel has taken these bytes of blocks, not by `flush`
     std::function<void(const Closed&)> on_closed{};    // at most once, and nothing after it
 };
 
@@ -90,10 +94,11 @@ public:
 
     // Any thread may call these; none waits. After the session has ended, they do nothing.
     //
-    // Queues a copy of the block; `flush` lets the writer send it. BlockQueue::push explains class and key. `kind` has
+    // Queues a copy of the block; `flush` lets the writer send it, and returns the bytes of blocks that the kernel has
+    // taken at once. BlockQueue::push explains class and key. `kind` has
     // an effect only if each block is a message.
     void push(ByteView block, std::uint8_t block_class, std::uint64_t key, MonoTime now, Kind kind = Kind::binary);
-    void flush();
+    std::size_t flush();
     // Sends what is queued, as far as the peer reads it within the `patience` of its server or client, then closes.
     // RFC 6455, section 7.4 lists the codes.
     void close(std::uint16_t code, const std::string& text) { orders_.close(code, text); }
@@ -108,6 +113,12 @@ public:
     // The same without frames, for a stream; `pack_bytes` must not be 0.
     std::size_t take_unframed(std::vector<std::uint8_t>& output, std::size_t up_to, MonoTime now);
     [[nodiscard]] SessionCounters& counts() noexcept { return counters_; }
+    // Private to the module, for `writes_at_once`. From `lend` to `withdraw`, `flush` may use the socket and writer.
+    // Before the http thread writes, it appends with `take_begun` the rest of what `flush` has begun to write; from
+    // then to the next `take`, `flush` writes nothing. Returns the bytes of blocks that were begun.
+    void lend(int socket, FrameWriter& writer);
+    void withdraw();
+    std::size_t take_begun(std::vector<std::uint8_t>& output);
     void end();
 
 private:
@@ -117,16 +128,22 @@ private:
     void take_one(std::vector<std::uint8_t>& output, FrameWriter& writer);
     void take_packed(std::vector<std::uint8_t>& output, FrameWriter* writer);
     void count_message(std::size_t blocks, std::size_t bytes);
+    [[nodiscard]] std::size_t write_at_once();
 
     const Peer peer_;
     const Orders orders_;
     const std::size_t pack_bytes_;
+    const bool writes_at_once_;
     SessionCounters counters_;
 
     mutable std::mutex mutex_;  // for all below, and for the counters of what leaves
     net::BlockQueue queue_;
     std::vector<std::uint8_t> scratch_;
-    bool is_writing_ = false;  // the writer will call `take` again
+    bool is_writing_ = false;        // the http thread will call `take` again
+    FrameWriter* writer_ = nullptr;  // lent by the http thread, with the socket
+    int socket_ = -1;
+    std::vector<std::uint8_t> rest_;  // what the socket did not take at once
+    std::size_t rest_bytes_ = 0;      // of the blocks of which some of `rest_` is
     bool has_ended_ = false;
 };
 

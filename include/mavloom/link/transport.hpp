@@ -58,8 +58,8 @@ public:
     // A message arrived. Returns false if the mailbox is full: read no more from this peer, keep the message, and
     // deliver it again when Transport::resume is called.
     [[nodiscard]] bool deliver(PeerNumber peer, ByteView message, WallTime time);
-    // So many bytes, which Transport::send passed for the peer, have left. Count them in the order of the messages.
-    // While too many are not reported, Links sends the peer nothing more.
+    // So many bytes, which Transport::send was passed for the peer, have left. While too many are not reported, Links
+    // sends the peer nothing more.
     void note_sent(PeerNumber peer, std::size_t bytes);
 
     struct Event {
@@ -116,8 +116,9 @@ public:
     [[nodiscard]] virtual SetupResult<void> open(const std::vector<net::Address>& addresses) = 0;
     // The port that it listens on; 0: none.
     [[nodiscard]] virtual std::uint16_t local_port() const { return 0; }
-    // Sends whole frames, back to back, as one message. They are copied before the call returns.
-    virtual void send(PeerNumber peer, std::span<const iovec> frames) = 0;
+    // Sends whole frames, back to back, as one message. They are copied before the call returns. Returns how many bytes
+    // have left already, of all that was passed for the peer; Mailbox::note_sent reports the others.
+    virtual std::size_t send(PeerNumber peer, std::span<const iovec> frames) = 0;
     virtual void close(PeerNumber peer, std::string_view why) = 0;
     // The mailbox has room again, for all peers that it refused.
     virtual void resume() = 0;

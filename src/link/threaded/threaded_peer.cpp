@@ -42,6 +42,11 @@ void ThreadedPeer::hear(ByteView message, WallTime time) {
 }
 
 void ThreadedPeer::note_sent(std::size_t bytes) {
+    count_sent(bytes);
+    if (!queue.empty()) schedule();
+}
+
+void ThreadedPeer::count_sent(std::size_t bytes) {
     sent_bytes_ += bytes;
     while (messages_ != 0 && sent_bytes_ >= sending_[first_].bytes) {
         counters.frames_out.add(sending_[first_].frames);
@@ -50,7 +55,6 @@ void ThreadedPeer::note_sent(std::size_t bytes) {
         first_ = (first_ + 1) % max_messages;
         --messages_;
     }
-    if (!queue.empty()) schedule();
 }
 
 void ThreadedPeer::flush() {
@@ -63,11 +67,12 @@ void ThreadedPeer::send_one() {
     auto until = queue.front();
     const auto gathered = queue.gather(until, max_message_bytes, pieces);
     assert(gathered.blocks != 0);
-    transport_.send(number_, std::span(pieces).first(gathered.pieces));
+    const std::size_t sent = transport_.send(number_, std::span(pieces).first(gathered.pieces));
     queue.pop(until);
     sending_[(first_ + messages_) % max_messages] = {static_cast<std::uint32_t>(gathered.blocks),
                                                      static_cast<std::uint32_t>(gathered.bytes)};
     ++messages_;
+    count_sent(sent);
 }
 
 }  // namespace mavloom::link::detail

@@ -55,6 +55,7 @@ private:
         std::uint32_t frames = 0, bytes = 0;
     };
     void send_one();
+    void count_sent(std::size_t bytes);
 
     Core& core_;
     Transport& transport_;

@@ -206,6 +206,60 @@ TEST_F(WebSockets, PacksBlocksIntoMessages) {
     EXPECT_EQ(session.counters().bytes_out.value(), 38u);
 }
 
+// The payloads of the binary messages, back to back, up to the close frame. Counts pongs.
+struct Heard {
+    std::string payload;
+    int pongs = 0;
+};
+Heard hear_to_close(RawClient& client) {
+    Heard heard;
+    for (;;) {
+        const auto head = client.read_bytes(2);
+        if (head.size() != 2 || head[0] == '\x88') return heard;
+        auto size = static_cast<std::size_t>(static_cast<unsigned char>(head[1]));
+        if (size == 126) {
+            const auto longer = client.read_bytes(2);
+            size = static_cast<std::size_t>(static_cast<unsigned char>(longer[0]) << 8 |
+                                            static_cast<unsigned char>(longer[1]));
+        }
+        const auto payload = client.read_bytes(size);
+        if (head[0] == '\x82') heard.payload += payload;
+        else if (head[0] == '\x8a' && payload == "ping") ++heard.pongs;
+        else ADD_FAILURE() << "a frame that begins with " << static_cast<int>(head[0]);
+    }
+}
+
+TEST_F(WebSockets, FlushWritesAtOnceAndTheThreadWritesTheRest) {
+    serve({.queue = {.max_bytes = 8'000'000}, .pack_bytes = 1000, .writes_at_once = true, .silence = 60s});
+    auto sut = open();
+    auto& session = *sessions[0];
+    session.push(bytes_of("first"), 0, 0, mono_now());
+    session.flush();  // the thread lends the socket once it has nothing to write
+    ASSERT_TRUE(eventually([&] { return locked([&] { return sent_bytes == 5; }); }));
+    std::string pushed = "first";
+    std::size_t at_once = 0;
+    const auto push = [&] {
+        const auto block = std::to_string(pushed.size()) + std::string(400, 'x');
+        session.push(bytes_of(block), 0, 0, mono_now());
+        at_once += session.flush();
+        pushed += block;
+    };
+    ASSERT_TRUE(eventually([&] { return push(), at_once != 0; }));
+    constexpr int pings = 20;
+    for (int i = 0; i < 200 * pings; ++i) {
+        if (i % 200 == 0) sut.send(frame(0x89, "ping"));
+        push();
+    }
+    EXPECT_GT(session.queued_bytes(), 0u);  // the client has read nothing
+    session.close(1000, "");
+    const auto heard = hear_to_close(sut);
+    EXPECT_TRUE(heard.payload == pushed);
+    EXPECT_GE(heard.pongs, 1);
+    EXPECT_LE(heard.pongs, pings);
+    EXPECT_EQ(session.counters().bytes_out.value(), pushed.size());
+    EXPECT_EQ(locked([&] { return sent_bytes; }) + at_once, pushed.size());
+}
+
 TEST_F(WebSockets, ChoosesTheSubprotocol) {
     serve({}, {}, {"foxglove.sdk.v1", "foxglove.websocket.v1"});
     const auto asks = [&](const std::string& offered) {

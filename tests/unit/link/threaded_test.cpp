@@ -27,13 +27,15 @@ struct Played final : Transport {
         return {};
     }
     [[nodiscard]] std::uint16_t local_port() const override { return port; }
-    void send(PeerNumber peer, std::span<const iovec> frames) override {
+    std::size_t send(PeerNumber peer, std::span<const iovec> frames) override {
         Bytes message;
         for (const iovec& piece : frames) {
             const auto* const from = static_cast<const std::uint8_t*>(piece.iov_base);
             message.insert(message.end(), from, from + piece.iov_len);
         }
+        const std::size_t size = message.size();
         messages.emplace_back(peer, std::move(message));
+        return sends_at_once ? size : 0;
     }
     void close(PeerNumber peer, std::string_view) override { closed.push_back(peer); }
     void resume() override { ++resumed; }
@@ -47,6 +49,7 @@ struct Played final : Transport {
 
     static inline std::atomic<Played*> last = nullptr;
     std::uint16_t port;
+    bool sends_at_once = false;
     std::shared_ptr<Mailbox> mailbox;
     std::vector<std::string> calls;
     std::vector<std::pair<PeerNumber, Bytes>> messages;
@@ -110,6 +113,18 @@ TEST_F(Threaded, FramesLeaveInWholeMessagesAndCountOnceTheyHaveLeft) {
     node.poll();
     EXPECT_EQ(counters().frames_out.value(), 2u);
     EXPECT_EQ(counters().bytes_out.value(), transport.sent().size());
+    EXPECT_FALSE(node.links->pending());
+}
+
+TEST_F(Threaded, WhatLeavesAtOnceCountsAtOnceAndIsNotBounded) {
+    Played& transport = connected("wsout://127.0.0.1:14550");
+    transport.sends_at_once = true;
+    for (std::uint8_t i = 0; i < 40; ++i) {
+        ASSERT_EQ(node.links->send(id, view(attitude(i))), 1u);
+        node.poll();
+    }
+    EXPECT_THAT(transport.messages, SizeIs(40));
+    EXPECT_EQ(counters().frames_out.value(), 40u);
     EXPECT_FALSE(node.links->pending());
 }
 

@@ -83,12 +83,13 @@ private:
 struct Played final : Transport {
     explicit Played(std::shared_ptr<Mailbox> box) : mailbox(std::move(box)) { last = this; }
     SetupResult<void> open(const std::vector<net::Address>&) override { return {}; }
-    void send(PeerNumber peer, std::span<const iovec> frames) override {
+    std::size_t send(PeerNumber peer, std::span<const iovec> frames) override {
         for (const iovec& piece : frames) {
             const auto* const from = static_cast<const std::uint8_t*>(piece.iov_base);
             sent.insert(sent.end(), from, from + piece.iov_len);
             mailbox->note_sent(peer, piece.iov_len);
         }
+        return 0;
     }
     void close(PeerNumber, std::string_view) override {}
     void resume() override {}
