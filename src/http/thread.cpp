@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <boost/asio/steady_timer.hpp>
 #include <cstring>
 #include <future>
 #include <system_error>
@@ -13,7 +14,10 @@
 
 namespace mavloom::http {
 
+// With its first timer or socket, Asio opens descriptors of its own, and throws if there are none. Later it needs no
+// more.
 Core::Core(int niceness) {
+    [[maybe_unused]] const asio::steady_timer first(context_);
     thread_ = thread_without_signals([this, niceness] {
         if (niceness != 0) ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), niceness);  // of this thread only
         context_.run();
@@ -41,7 +45,7 @@ void Core::stop() {
 SetupResult<Thread> Thread::start(int niceness) {
     try {
         return Thread(std::make_shared<Core>(niceness));
-    } catch (const boost::system::system_error& error) {  // for example, no free descriptors
+    } catch (const boost::system::system_error& error) {
         return system_error("http thread", error.code().value());
     } catch (const std::system_error& error) {
         return system_error("http thread", error.code().value());

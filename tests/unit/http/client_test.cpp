@@ -3,7 +3,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <array>
 #include <chrono>
@@ -192,6 +194,23 @@ TEST_F(WebSocketClient, ChecksTheAnswer) {
     connect({.addresses = {listener.local()}});
     answer(listener, upgrade + connection);
     EXPECT_TRUE(near.eventually_has([&] { return near.session != nullptr; }));
+}
+
+// Asio opens descriptors of its own for the first socket or timer.
+TEST(HttpThread, WithoutFreeDescriptorsIsAnErrorAndNoException) {
+    const int lowest = ::dup(STDERR_FILENO);  // of the numbers that are free
+    ::close(lowest);
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+    rlimit none = before;
+    none.rlim_cur = static_cast<rlim_t>(lowest);
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
+    const auto thread = Thread::start();
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+
+    ASSERT_FALSE(thread);
+    EXPECT_EQ(thread.error().code, SetupCode::system);
+    EXPECT_THAT(thread.error().text, HasSubstr("Too many open files"));
 }
 
 TEST_F(WebSocketClient, EndsAtAnyTime) {
