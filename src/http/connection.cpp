@@ -128,10 +128,15 @@ void Connection::wait_for_client() {
     deadline_.expires_after(server_->options.limits.patience);
     deadline_.async_wait([weak = weak_from_this()](error_code error) {
         const auto self = weak.lock();
-        if (error || !self || self->deadline_.expiry() > std::chrono::steady_clock::now()) return;
-        if (self->socket_.is_open()) self->report(Count::timed_out, "no whole request came in time");
-        self->hang_up();
+        if (!error && self && self->deadline_.expiry() <= std::chrono::steady_clock::now()) self->time_out();
     });
+}
+
+// A client may keep the connection after an answer, and need it no more.
+void Connection::time_out() {
+    const bool is_unused = was_answered_ && !parser_->got_some() && input_.size() == 0;
+    if (socket_.is_open() && !is_unused) report(Count::timed_out, "no whole request came in time");
+    hang_up();
 }
 
 // The time that the program takes does not count against the client.
@@ -345,6 +350,7 @@ void Connection::write(const Response& response) {
                       [self = shared_from_this()](error_code error, std::size_t) {
                           self->body_.reset();
                           if (error) return;
+                          self->was_answered_ = true;
                           if (self->stays_open_) self->read();
                           else self->hang_up();
                       });

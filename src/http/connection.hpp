@@ -65,6 +65,7 @@ private:
     static constexpr auto busy = std::chrono::steady_clock::time_point::max();
 
     void wait_for_client();
+    void time_out();
     void wait_for_handler();
     void take(error_code error);
     void refuse_malformed(error_code error);
@@ -92,6 +93,7 @@ private:
     boost::beast::flat_buffer input_;
     std::optional<Parser> parser_;
     bool is_head_ = false, stays_open_ = false;
+    bool was_answered_ = false;  // at least once
     unsigned version_ = 11;      // 10 or 11, for HTTP/1.0 and HTTP/1.1
     std::string listed_origin_;  // of the page that caused the request; empty: there is none
     std::string query_;          // of the request, without a token

@@ -76,11 +76,12 @@ void accept_later(const StatePointer& server, Listener& listener) {
 }
 
 void accept(const StatePointer& server, Listener& listener) {
+    if (!listener.acceptor.is_open()) return;  // the server has ended
     listener.acceptor.async_accept([server, &listener](error_code error, Tcp::socket socket) {
-        if (error == asio::error::operation_aborted) return;
+        if (!listener.acceptor.is_open()) return;
         if (error) return accept_later(server, listener);  // for example, no free descriptors
         take(server, std::move(socket));
-        if (listener.acceptor.is_open()) accept(server, listener);
+        accept(server, listener);
     });
 }
 
@@ -127,8 +128,7 @@ SetupResult<Server> Server::listen(const Thread& thread, ServerOptions options) 
             addresses.push_back(*opened);
         }
         asio::post(core->context(), [state] {
-            for (const auto& listener : state->listeners)
-                if (listener->acceptor.is_open()) accept(state, *listener);
+            for (const auto& listener : state->listeners) accept(state, *listener);
         });
         return Server(core, state, std::move(addresses));
     } catch (const boost::system::system_error& error) {

@@ -227,6 +227,22 @@ TEST_F(HttpServer, DisconnectsSlowLorisHalfRequestAndSilence) {
     EXPECT_LT(mono_now() - begin, 30s);
 }
 
+// A browser keeps its connection for a next request, which may never come.
+TEST_F(HttpServer, AConnectionThatIsKeptAndNotUsedEndsWithoutBeingCounted) {
+    auto options = greeter();
+    options.limits.patience = 300ms;
+    std::vector<Count> refused;
+    options.on_refused = [&](const Refused& one) { refused.push_back(one.counter); };
+    serve(std::move(options));
+    auto kept = client(), begun = client();
+    kept.send(get_hello);
+    begun.send(std::string(get_hello) + "GET");
+    EXPECT_THAT(kept.read_until(), EndsWith("hello you"));
+    EXPECT_THAT(begun.read_until(), EndsWith("hello you"));
+    server.reset();
+    EXPECT_THAT(refused, ::testing::ElementsAre(Count::timed_out)) << "of the request that was begun";
+}
+
 TEST_F(HttpServer, AClientThatReadsNothingTakesNoMoreMemoryAndIsDisconnected) {
     auto options = greeter();
     options.limits.patience = 300ms;
