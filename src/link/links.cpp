@@ -99,6 +99,7 @@ SetupResult<void> Links::open_as(EndpointId id, std::uint8_t signs_as, const end
     auto opened = open({*core_, endpoint, id, std::move(*signature)});
     if (!opened) {
         core_->dialects.forget(id);
+        core_->links_added.erase(id);
         return tl::unexpected(std::move(opened).error());
     }
     core_->endpoints.add(std::move(*opened));

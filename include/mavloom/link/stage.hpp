@@ -8,9 +8,9 @@
 // sends any bytes, and treats them as the frame that they were made from. It counts each piece in `frames_out`.
 // Several pieces may share a datagram or a message.
 //
-// Links holds pieces for the stages. They count as queued outward. At most queue_bytes are held in each direction.
-// Pieces beyond that, and those that are held when the link ends, are dropped and count in `held_dropped`. A stage
-// counts its own doings.
+// Links holds pieces for the stages. They count as queued outward. At most queue_bytes are held in each direction, and
+// not more pieces than so many bytes could have frames. Pieces beyond that, and those that are held when the link ends,
+// are dropped and count in `held_dropped`. A stage counts its own doings.
 #pragma once
 
 #include <cstdint>

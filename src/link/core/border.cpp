@@ -97,10 +97,16 @@ void Border::leave(Way way, const Piece& piece) {
     Core::push_staged(link_, piece, core_.now());
 }
 
+// Each piece takes memory of its own, so there may be no more than there could be frames.
+bool Border::has_room(const Chain& chain, const Piece& piece) const noexcept {
+    return chain.bytes + piece.bytes.size() <= link_.max_held_bytes &&
+           chain.held.size() < link_.max_held_bytes / wire::min_frame_length;
+}
+
 void Border::hold(Way way, std::size_t place, const Piece& piece, MonoTime now, MonoTime when) {
     if (piece.bytes.empty()) return;
     Chain& chain = at(way);
-    if (chain.bytes + piece.bytes.size() > link_.max_held_bytes) return link_.counters.held_dropped.add();
+    if (!has_room(chain, piece)) return link_.counters.held_dropped.add();
     Held held{piece, {piece.bytes.begin(), piece.bytes.end()}, place};
     if (way == Way::in) held.piece.time += when - now;
     chain.keep(when, std::move(held));

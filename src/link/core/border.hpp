@@ -68,6 +68,7 @@ private:
     [[nodiscard]] const Chain& at(Way way) const noexcept { return chains_[static_cast<std::size_t>(way)]; }
     // `place`: of the stage that takes the piece.
     void pass(Way way, std::size_t place, const Piece& piece, MonoTime now);
+    [[nodiscard]] bool has_room(const Chain& chain, const Piece& piece) const noexcept;
     void hold(Way way, std::size_t place, const Piece& piece, MonoTime now, MonoTime when);
     void release_until(Way way, MonoTime end);
     void tick_stages(Way way, MonoTime now);

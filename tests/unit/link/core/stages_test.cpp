@@ -306,6 +306,19 @@ TYPED_TEST(StagesOf, WhatExceedsQueueBytesIsDroppedAndCounted) {
     EXPECT_EQ(this->node.links->queued_bytes(this->id), most * heartbeat(0).size()) << "inward has its own bound";
 }
 
+// Each takes memory, however short it is.
+TEST(Stages, ManyShortPiecesAreDroppedToo) {
+    Node node;
+    Threaded far;
+    far.open(node, "queue_bytes=1000");
+    const LinkId link = node.recorder.ups.at(0).first;
+    ASSERT_TRUE(node.links->set_stages(link, [](const StageSite&) { return inward({hold(1h)}); }));
+    for (int i = 0; i < 500; ++i) far.write({0});
+    node.poll();
+    EXPECT_EQ(node.counters(link).held_dropped.value(), 500u - 1000 / 8) << "the shortest frame has 8 bytes";
+    node.links->remove(far.endpoint);
+}
+
 // ---- changes --------------------------------------------------------------------------------------------------------
 
 TYPED_TEST(StagesOf, WhatIsHeldPassesOnBeforeAnythingElseWhenTheyAreReplaced) {
@@ -401,6 +414,19 @@ TEST(Stages, EveryLinkOfAnEndpointHasItsOwn) {
     EXPECT_THAT(sites,
                 UnorderedElementsAre(name("udpin", in, first, "datagrams"), name("udpin", in, second, "datagrams"),
                                      name("tcpin", stream, client, "stream")));
+}
+
+TEST(Stages, AnEndpointThatDidNotOpenLeavesNoTrace) {
+    Node node;
+    (void)node.refused("tcpout://127.0.0.1:1?required=true");
+    Udp far;
+    far.open(node, "idle=60");
+    std::uint64_t ordinal = 99;
+    ASSERT_TRUE(node.links->set_stages(node.recorder.ups.at(0).first, [&](const StageSite& site) {
+        ordinal = site.ordinal;
+        return Stages{};
+    }));
+    EXPECT_EQ(ordinal, 0u) << "it decides the random numbers of faults";
 }
 
 TEST(Stages, RingsAndWhatIsGoneHaveNone) {
