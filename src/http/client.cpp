@@ -94,8 +94,8 @@ struct ClientState : std::enable_shared_from_this<ClientState> {
     void try_next() {
         if (next == options.addresses.size()) return fail();
         socket = Tcp::socket(socket.get_executor());
-        if (const auto error = bind()) return try_another(error);
         limit(options.patience);
+        if (const auto error = bind()) return try_another(error);
         socket.async_connect(endpoint_of(options.addresses[next]), [self = shared_from_this()](error_code error) {
             if (error || self->is_late) self->try_another(error);
             else self->shake_hands();

@@ -11,6 +11,7 @@ http::SessionOptions session_options() {
     http::SessionOptions options;
     options.pack_bytes = 8192;
     options.writes_at_once = true;
+    options.queue.max_bytes = link::Transport::max_unsent_bytes;
     options.queue.max_age.fill(std::chrono::hours(24));  // Links' queue drops what is too old
     return options;
 }

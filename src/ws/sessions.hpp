@@ -16,7 +16,7 @@
 
 namespace mavloom::ws {
 
-// For both sides. Links hands over less than this queue holds, so that it drops nothing.
+// For both sides. Links hands over no more than this queue holds, so that it drops nothing.
 [[nodiscard]] http::SessionOptions session_options();
 
 class Sessions {

@@ -43,8 +43,8 @@ using EndpointId = Id<struct EndpointTag, std::uint32_t>;
 
 // The sequence numbers heard on one link, and its loss counters.
 struct Loss {
-    // For endpoint::RoutingOptions::by_owner: the owner of the links counts each frame that is no echo. Links counts
-    // the others itself. Returns a reference that is valid until the next call.
+    // With endpoint::RoutingOptions::by_owner, the owner of the links calls it for each frame that is no echo.
+    // Otherwise Links does, for every frame. Returns a reference that is valid until the next call.
     const wire::SequenceTracker::Update& count(const wire::FrameView& frame, const wire::MessageInfo* info) {
         const auto& update = tracker.update(frame, info);
         if (update.verdict != wire::SequenceTracker::Verdict::good) [[unlikely]]

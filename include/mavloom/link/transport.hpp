@@ -89,7 +89,7 @@ public:
     void close();
 
     // Bytes of messages, with their events, that may wait: of one peer, so that it does not delay the others, and of
-    // all.
+    // all. A peer of which none waits may always deliver one.
     static constexpr std::size_t max_peer_bytes = std::size_t{256} << 10, max_bytes = std::size_t{4} << 20;
 
 private:
@@ -117,7 +117,9 @@ public:
     // The port that it listens on; 0: none.
     [[nodiscard]] virtual std::uint16_t local_port() const { return 0; }
     // Sends whole frames, back to back, as one message. They are copied before the call returns. Returns how many bytes
-    // have left already, of all that was passed for the peer; Mailbox::note_sent reports the others.
+    // have left already, of all that was passed for the peer; Mailbox::note_sent reports the others. None may be
+    // dropped while the connection lasts: of one peer, at most `max_unsent_bytes` are passed and have not left.
+    static constexpr std::size_t max_unsent_bytes = std::size_t{128} << 10;
     virtual std::size_t send(PeerNumber peer, std::span<const iovec> frames) = 0;
     virtual void close(PeerNumber peer, std::string_view why) = 0;
     // The mailbox has room again, for all peers that it refused.

@@ -43,6 +43,8 @@ bool Mailbox::add(Put&& put) {
 
 void Mailbox::join(const NewPeer& peer) {
     (void)add([&](Batch& batch) {
+        // A transport that Links lets call again may have ended the last connection without a word.
+        std::erase_if(waiting_, [](const auto& other) { return other.second == 0; });
         batch.events.push_back({.kind = Kind::join, .peer = peer.number, .offset = batch.peers.size()});
         batch.peers.push_back(peer);
         return true;

@@ -50,7 +50,8 @@ public:
 
 private:
     // The transport has at most so much at a time.
-    static constexpr std::size_t max_messages = 16, max_message_bytes = 8192, pieces_per_message = 64;
+    static constexpr std::size_t max_message_bytes = 8192, pieces_per_message = 64;
+    static constexpr std::size_t max_messages = Transport::max_unsent_bytes / max_message_bytes;
     struct Message {
         std::uint32_t frames = 0, bytes = 0;
     };

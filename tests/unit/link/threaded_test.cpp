@@ -128,6 +128,14 @@ TEST_F(Threaded, WhatLeavesAtOnceCountsAtOnceAndIsNotBounded) {
     EXPECT_FALSE(node.links->pending());
 }
 
+TEST_F(Threaded, ATransportGetsNoMoreThanItMustHold) {
+    Played& transport = connected("wsout://127.0.0.1:14550");
+    for (int i = 0; i < 10'000; ++i) ASSERT_EQ(node.links->send(id, view(frame_bytes(131, 7))), 1u);
+    node.poll();
+    EXPECT_LE(transport.sent().size(), Transport::max_unsent_bytes);
+    EXPECT_GT(transport.sent().size(), Transport::max_unsent_bytes / 2);
+}
+
 TEST_F(Threaded, WhatASlowTransportCannotTakeWaitsInTheQueueAndIsReplacedThere) {
     Played& transport = connected("wsout://127.0.0.1:14550?queue_bytes=1000");
     for (int i = 0; i < 2000; ++i) {
@@ -271,6 +279,8 @@ TEST_F(Threaded, NothingReachesAnEndpointThatWasRemoved) {
     Played& transport = connected("wsin://127.0.0.1:14550");
     const auto mailbox = transport.mailbox;
     node.links->remove(id);
+    for (int i = 0; i < 100; ++i)
+        EXPECT_TRUE(mailbox->deliver(1, Bytes(80'000, 0), wall_now())) << "discarded, else it would be full";
     EXPECT_TRUE(mailbox->deliver(1, heartbeat(0), wall_now()));
     node.poll();
     EXPECT_THAT(node.recorder.frames, SizeIs(0));
