@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cstdint>
 
 #include "link/resolve_and_open.hpp"
 
@@ -26,9 +27,6 @@ void mavloom::link::register_transport(endpoint::Scheme scheme, CreateTransport 
 
 namespace mavloom::link::detail {
 
-// A turn handles so many bytes of messages from one endpoint.
-static constexpr std::size_t bytes_per_turn = Core::stream_buffer_bytes;
-
 ThreadedEndpoint::ThreadedEndpoint(Opening& opening)
     : OpenEndpoint(opening),
       NameUser(opening.core.look_ups),
@@ -39,12 +37,21 @@ ThreadedEndpoint::ThreadedEndpoint(Opening& opening)
 
 ThreadedEndpoint::~ThreadedEndpoint() { mailbox_->close(); }
 
+static std::size_t cost_of(const Mailbox::Event& event) noexcept {
+    return sizeof event + (event.kind == Mailbox::Event::Kind::message ? event.size : 0);
+}
+
 void ThreadedEndpoint::on_wake() {
-    const std::size_t most = core_.reads_all ? Mailbox::max_bytes : bytes_per_turn;
-    for (std::size_t bytes = 0; bytes < most;) {
-        if (next_ == batch_.events.size() && !fetch()) return;
-        bytes += sizeof(Mailbox::Event) + handle_next();
-    }
+    const auto& events = batch_.events;
+    const bool is_new = next_ == events.size();
+    if (is_new && !fetch()) return;
+    const std::size_t most = core_.reads_all ? SIZE_MAX : budget_.limit();
+    std::size_t end = next_, bytes = 0;
+    for (; end != events.size() && bytes < most; ++end) bytes += cost_of(events[end]);
+    budget_.spend(bytes, bytes, [&] {
+        while (next_ != end) handle_next();
+    });
+    if (is_new && end == events.size()) return;  // what has come since `fetch` wakes the loop itself
     core_.note_more_waits();
     core_.loop().wake();
 }
@@ -57,13 +64,6 @@ bool ThreadedEndpoint::await_event(MonoTime end) {
     handle_next();
     core_.loop().wake();  // for the others
     return true;
-}
-
-// Returns how many bytes of messages it handled.
-std::size_t ThreadedEndpoint::handle_next() {
-    const Mailbox::Event event = batch_.events[next_++];
-    handle(event);
-    return event.kind == Mailbox::Event::Kind::message ? event.size : 0;
 }
 
 // Returns false if nothing has arrived. The next event then wakes the loop.

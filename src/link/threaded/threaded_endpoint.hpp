@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "link/core/read_budget.hpp"
 #include "link/peer_list.hpp"
 #include "link/retry.hpp"
 #include "link/threaded/threaded_peer.hpp"
@@ -39,11 +40,13 @@ protected:
 
 private:
     [[nodiscard]] bool fetch();
-    std::size_t handle_next();
+    void handle_next() { handle(batch_.events[next_++]); }
     void handle(const Mailbox::Event& event);
 
     Mailbox::Batch batch_;
     std::size_t next_ = 0;  // of batch_.events
+    // In bytes, as for a stream. A message is handled whole.
+    ReadBudget budget_{4096, Core::stream_buffer_bytes};
 };
 
 [[nodiscard]] bool has_transport(endpoint::Scheme scheme) noexcept;

@@ -275,6 +275,23 @@ TEST_F(Threaded, AFullMailboxRefusesMessagesUntilItHasRoom) {
     ASSERT_TRUE(until([&] { return node.recorder.frames.size() == 1; }, node));
 }
 
+// As it is for streams: frames may cost much because they go to many links.
+TEST_F(Threaded, AfterATurnThatTookLongTheNextHandlesLess) {
+    Played& transport = connected("wsin://127.0.0.1:14550");
+    for (int i = 0; i < 2500; ++i)
+        EXPECT_TRUE(transport.mailbox->deliver(1, attitude(static_cast<std::uint8_t>(i)), wall_now()));
+    node.recorder.answer = [&](const RxFrame&) {
+        if (node.recorder.frames.size() == 1) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    };
+    node.poll();
+    const std::size_t first = node.recorder.frames.size();
+    node.poll();
+    const std::size_t second = node.recorder.frames.size() - first;
+    EXPECT_GT(first, 1000u);
+    EXPECT_LT(second, 100u);
+    EXPECT_TRUE(until([&] { return node.recorder.frames.size() == 2500; }, node));
+}
+
 TEST_F(Threaded, NothingReachesAnEndpointThatWasRemoved) {
     Played& transport = connected("wsin://127.0.0.1:14550");
     const auto mailbox = transport.mailbox;
