@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "http/core.hpp"
-
 #include "http/frames.hpp"
 
 namespace mavloom::http {

@@ -95,8 +95,7 @@ public:
     // Any thread may call these; none waits. After the session has ended, they do nothing.
     //
     // Queues a copy of the block; `flush` lets the writer send it, and returns the bytes of blocks that the kernel has
-    // taken at once. BlockQueue::push explains class and key. `kind` has
-    // an effect only if each block is a message.
+    // taken at once. BlockQueue::push explains class and key. `kind` has an effect only if each block is a message.
     void push(ByteView block, std::uint8_t block_class, std::uint64_t key, MonoTime now, Kind kind = Kind::binary);
     std::size_t flush();
     // Sends what is queued, as far as the peer reads it within the `patience` of its server or client, then closes.
