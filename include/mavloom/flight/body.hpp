@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The body of a simulated multicopter as numbers: mass, inertia, rotors, drag. Plain values; nothing here checks them.
-// docs/guide/sim.md lists the keys that set them. Axes: x forward, y right, z down, through the centre of mass.
+// The body of a simulated vehicle as numbers: mass, inertia, rotors, wings, wheels. Plain values; nothing here checks
+// them. docs/guide/sim.md lists the keys that set them. Axes: x forward, y right, z down, through the centre of mass.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <string_view>
 
 namespace mavloom::flight {
@@ -14,9 +15,15 @@ namespace mavloom::flight {
 enum class Frame : std::uint8_t { quad_x, quad_plus, hexa_x, hexa_plus, octo_x, octo_plus };
 // Sets of numbers: `standard` is Mavloom's own quadrotor; `iris` flies in Gazebo classic, `jmavsim` in jMAVSim.
 enum class BodyPreset : std::uint8_t { standard, iris, jmavsim };
+// `standard` is Mavloom's own plane; `aerosonde` is the example of Beard and McLain, "Small Unmanned Aircraft" (2012).
+enum class PlanePreset : std::uint8_t { standard, aerosonde };
+// `standard` is Mavloom's own rover; `sih` has the size and the speed of the rover in PX4's own simulator.
+enum class RoverPreset : std::uint8_t { standard, sih };
 
 inline constexpr std::string_view frame_names[] = {"quad-x", "quad-plus", "hexa-x", "hexa-plus", "octo-x", "octo-plus"};
 inline constexpr std::string_view body_names[] = {"standard", "iris", "jmavsim"};
+inline constexpr std::string_view plane_names[] = {"standard", "aerosonde"};
+inline constexpr std::string_view rover_names[] = {"standard", "sih"};
 
 struct Rotor {
     double forward_m = 0, right_m = 0;
@@ -44,7 +51,50 @@ struct CopterBody {
     double turn_drag = 0;    // N m per rad/s
 };
 
+// Coefficients refer to the wing's area and, for moments, to its span (roll, yaw) or chord (pitch). The standard plane
+// stalls at 7 m/s and cruises at 15.
+struct PlaneBody {
+    double mass_kg = 1.5;
+    std::array<double, 3> inertia_kg_m2{0.09, 0.07, 0.15};  // about x, y and z
+    double area_m2 = 0.4, span_m = 1.67, chord_m = 0.24;    // of the wing
+    double lift_zero = 0.15;                                // lift coefficient at no angle of attack
+    double lift_slope = 4.5;                                // per rad, up to the stall
+    double stall_deg = 13;                                  // angle of attack
+    double drag_zero = 0.03;                                // drag coefficient without lift
+    // Drag coefficient per square of the lift coefficient; this one is that of an aspect ratio of 7.
+    double induced = 1 / (std::numbers::pi * 0.8 * 7);
+    double side_slope = 0.6;      // side force coefficient, per rad of slip
+    double thrust_n = 12;         // at rest, full output
+    double pitch_speed_m_s = 40;  // at which the propeller has no thrust left
+    double spin_s = 0.15;         // time constant of the motor
+    double roll_damping = 0.5, pitch_damping = 15, yaw_damping = 0.12;
+    double pitch_stiffness = 0.6, yaw_stiffness = 0.05;                     // per rad of attack and slip
+    double trim_deg = 2.5;                                                  // angle of attack with a centred elevator
+    double full_ailerons = 0.088, full_elevator = 0.3, full_rudder = 0.03;  // moment coefficients
+    double turn_radius_m = 5;                                               // of the nose wheel at full deflection
+};
+
+struct RoverBody {
+    double mass_kg = 5;
+    double thrust_n = 75;        // of the wheels at rest, full output
+    double top_speed_m_s = 10;   // at full output
+    double turn_radius_m = 0.8;  // at full steering
+    double grip_m_s2 = 4;        // acceleration that the tyres hold sideways
+    double steering_lag_s = 0.15;
+};
+
+// The one of the vehicle's kind counts.
+struct Body {
+    CopterBody copter{};
+    PlaneBody plane{};
+    RoverBody rover{};
+};
+
 [[nodiscard]] CopterBody body_of(BodyPreset preset);
+[[nodiscard]] PlaneBody body_of(PlanePreset preset);
+[[nodiscard]] RoverBody body_of(RoverPreset preset);
+// The least airspeed of level flight at sea level, m/s.
+[[nodiscard]] double stall_speed(const PlaneBody& body) noexcept;
 // Puts the rotors on a circle around the centre of mass.
 void set_frame(CopterBody& body, Frame frame, double arm_m);
 // The distance of the farthest rotor from the centre of mass.

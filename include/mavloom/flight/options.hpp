@@ -88,7 +88,7 @@ struct VehicleOptions {
     // It wakes with each step that may change what it reports, so that no stream decides when a change is reported. The
     // same inputs then give the same bytes on a link, whatever other links there are.
     bool wakes_for_changes = false;
-    CopterBody body{};        // of a quad
+    Body body{};
     WallTime utc_at_start{};  // UTC at flight time 0; the epoch means that UTC is unknown
 };
 

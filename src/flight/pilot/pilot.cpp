@@ -7,10 +7,10 @@
 
 namespace mavloom::flight {
 
-std::unique_ptr<Pilot> make_pilot(Kind kind, const CopterBody& body) {
-    if (kind == Kind::plane) return std::make_unique<wing::PlanePilot>();
-    if (kind == Kind::rover) return std::make_unique<RoverPilot>();
-    return std::make_unique<CopterPilot>(body);
+std::unique_ptr<Pilot> make_pilot(Kind kind, const Body& body) {
+    if (kind == Kind::plane) return std::make_unique<wing::PlanePilot>(body.plane);
+    if (kind == Kind::rover) return std::make_unique<RoverPilot>(body.rover);
+    return std::make_unique<CopterPilot>(body.copter);
 }
 
 }  // namespace mavloom::flight

@@ -99,6 +99,6 @@ protected:
     Outputs outputs_{};
 };
 
-[[nodiscard]] std::unique_ptr<Pilot> make_pilot(Kind kind, const CopterBody& body);
+[[nodiscard]] std::unique_ptr<Pilot> make_pilot(Kind kind, const Body& body);
 
 }  // namespace mavloom::flight

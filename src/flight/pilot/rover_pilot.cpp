@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "flight/pilot/path.hpp"
-#include "flight/plant/rover.hpp"
 
 namespace mavloom::flight {
 
@@ -16,16 +15,21 @@ constexpr double heading_gain = 2;   // 1/s
 constexpr double arrived = 0.3;      // m
 constexpr double default_speed = 5;  // m/s
 
-SpeedLimits bounded(const SpeedLimits& given) noexcept {
+// As a share of what the motor can do at rest, so that the rover can also stop.
+constexpr double careful = 2.0 / 3;
+
+}  // namespace
+
+SpeedLimits RoverPilot::bounded(const SpeedLimits& given) const noexcept {
+    const double most = std::min(10.0, careful * body_.thrust_n / body_.mass_kg);
     SpeedLimits limits = given;
-    limits.horizontal = finite_or(given.horizontal, default_speed, 0.1, Rover::top_speed);
-    limits.acceleration = finite_or(given.acceleration, 3, 0.2, 10);
-    limits.turn_radius = finite_or(given.turn_radius, 1.5, Rover::tightest_turn, 50);
+    const double fastest = body_.top_speed_m_s, tightest = body_.turn_radius_m;
+    limits.horizontal = finite_or(given.horizontal, std::min(default_speed, fastest), 0.1, fastest);
+    limits.acceleration = finite_or(given.acceleration, 3, std::min(0.2, most), most);
+    limits.turn_radius = finite_or(given.turn_radius, std::max(1.5, tightest), tightest, 50);
     limits.yaw_rate = finite_or(given.yaw_rate, to_radians(60), 0.1, to_radians(180));
     return limits;
 }
-
-}  // namespace
 
 void RoverPilot::start(const Kinematics& motion) { targets_ = {.attitude = motion.attitude}; }
 
@@ -99,7 +103,7 @@ RoverPilot::Demand RoverPilot::drive_around(const Setpoint& setpoint) const {
     const double radius = std::copysign(std::max(std::abs(asked), limits_.turn_radius), asked);
     const Course course = course_on_circle(motion_, setpoint.position, radius, std::max(1.5, std::abs(speed_)));
     return turn_to(course.angle, course.turn_rate,
-                   std::min(limits_.horizontal, std::sqrt(Rover::tyre_grip * std::abs(radius))));
+                   std::min(limits_.horizontal, std::sqrt(body_.grip_m_s2 * std::abs(radius))));
 }
 
 RoverPilot::Demand RoverPilot::turn(double turn_rate, double speed) const {
@@ -112,7 +116,7 @@ RoverPilot::Demand RoverPilot::turn(double turn_rate, double speed) const {
 // The farther the heading is off, the slower, so that the turn is tight.
 RoverPilot::Demand RoverPilot::turn_to(double course, double turn_rate, double speed) const {
     const double off = wrap_pi(course - heading_);
-    const double slow = std::sqrt(Rover::tyre_grip * limits_.turn_radius) / 2;
+    const double slow = std::sqrt(body_.grip_m_s2 * limits_.turn_radius) / 2;
     const double most = std::max(std::abs(speed) * std::cos(off), slow);
     Demand demand = turn(turn_rate + heading_gain * off, std::clamp(speed, -most, most));
     demand.course = course;
@@ -128,9 +132,9 @@ double RoverPilot::stopping_speed(double distance) const noexcept {
 Outputs RoverPilot::outputs_for(const Demand& demand, double supply) const {
     const double wanted = (demand.speed - speed_) / speed_lag;
     const double acceleration = std::clamp(wanted, -limits_.acceleration, limits_.acceleration);
-    const double drive = speed_ / Rover::top_speed + acceleration / Rover::pull;
+    const double drive = speed_ / body_.top_speed_m_s + acceleration / (body_.thrust_n / body_.mass_kg);
     const double curvature = std::clamp(demand.curvature, -1 / limits_.turn_radius, 1 / limits_.turn_radius);
-    return {servo_output(drive / std::clamp(supply, 0.5, 1.0)), servo_output(curvature * Rover::tightest_turn)};
+    return {servo_output(drive / std::clamp(supply, 0.5, 1.0)), servo_output(curvature * body_.turn_radius_m)};
 }
 
 void RoverPilot::report(const Demand& demand) {

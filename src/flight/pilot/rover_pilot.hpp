@@ -11,6 +11,8 @@ namespace mavloom::flight {
 
 class RoverPilot final : public Pilot {
 public:
+    explicit RoverPilot(const RoverBody& body) : body_(body) {}
+
     const Outputs& step(const Setpoint& setpoint, bool armed, const Plant& plant, const Surroundings& around) override;
     void start(const Kinematics& motion) override;
 
@@ -33,6 +35,9 @@ private:
     [[nodiscard]] Outputs outputs_for(const Demand& demand, double supply) const;
     void report(const Demand& demand);
 
+    [[nodiscard]] SpeedLimits bounded(const SpeedLimits& given) const noexcept;
+
+    const RoverBody body_;
     SpeedLimits limits_;  // of the current set-point, bounded
     // Of the rover at this step: place, heading (rad) and speed along it (m/s).
     Kinematics motion_;

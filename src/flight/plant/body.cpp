@@ -67,6 +67,41 @@ CopterBody jmavsim() {
     return body;
 }
 
+// The book gives moments per rad of deflection; full deflections are 30 degrees here. Thrust, stall and nose wheel are
+// ours.
+PlaneBody aerosonde() {
+    constexpr double full = to_radians(30), aspect_ratio = 2.9 * 2.9 / 0.55;
+    return {.mass_kg = 11,
+            .inertia_kg_m2 = {0.824, 1.135, 1.759},
+            .area_m2 = 0.55,
+            .span_m = 2.9,
+            .chord_m = 0.19,
+            .lift_zero = 0.23,
+            .lift_slope = 5.61,
+            .stall_deg = 15,
+            .drag_zero = 0.043,
+            .induced = 1 / (pi * 0.9 * aspect_ratio),
+            .side_slope = 0.83,
+            .thrust_n = 60,
+            .pitch_speed_m_s = 60,
+            .roll_damping = 0.51,
+            .pitch_damping = 38.21,
+            .yaw_damping = 0.069,
+            .pitch_stiffness = 2.74,
+            .yaw_stiffness = 0.073,
+            .trim_deg = to_degrees(0.0135 / 2.74),
+            .full_ailerons = 0.17 * full,
+            .full_elevator = 0.99 * full,
+            .full_rudder = 0.069 * full,
+            .turn_radius_m = 10};
+}
+
+// From PX4's airframe 10045: mass, wheel base 0.321 m, steering angle 30 degrees, speed at full output. The thrust is
+// ours.
+RoverBody sih() {
+    return {.mass_kg = 20, .thrust_n = 100, .top_speed_m_s = 3.2, .turn_radius_m = 0.321 / std::tan(to_radians(30))};
+}
+
 }  // namespace
 
 CopterBody body_of(BodyPreset preset) {
@@ -76,6 +111,15 @@ CopterBody body_of(BodyPreset preset) {
         case BodyPreset::standard: break;
     }
     return {};
+}
+
+PlaneBody body_of(PlanePreset preset) { return preset == PlanePreset::aerosonde ? aerosonde() : PlaneBody{}; }
+RoverBody body_of(RoverPreset preset) { return preset == RoverPreset::sih ? sih() : RoverBody{}; }
+
+double stall_speed(const PlaneBody& body) noexcept {
+    constexpr double sea_level_density = 1.225;  // kg/m^3
+    const double most_lift = body.lift_zero + body.lift_slope * to_radians(body.stall_deg);
+    return std::sqrt(2 * body.mass_kg * gravity / (sea_level_density * body.area_m2 * most_lift));
 }
 
 void set_frame(CopterBody& body, Frame frame, double arm_m) {

@@ -8,21 +8,18 @@ namespace mavloom::flight {
 
 namespace {
 
-using wing::mass;
-
-constexpr double motor_lag = 0.15;                        // s
-constexpr double cruise_motor = 0.5;                      // motor speed of level flight at wing::cruise_speed
-constexpr double gear_stiffness = mass * gravity / 0.02;  // N/m: the gear gives 2 cm under the plane's weight
-constexpr double gear_damping = 45;                       // N/(m/s)
-constexpr double gear_travel = 0.02;                      // m
-constexpr double gear_lag = 0.08;                         // s, with which the wheels turn the body
-constexpr double deepest = -0.15;                         // m: height at which the hull carries what the gear cannot
+constexpr double cruise_motor = 0.5;  // motor speed of the standard plane in level flight at cruise speed
+constexpr double gear_travel = 0.02;  // m that the gear gives under the plane's weight
+constexpr double gear_damping = 30;   // N/(m/s) for each kg of the plane
+constexpr double gear_lag = 0.08;     // s, with which the wheels turn the body
+constexpr double deepest = -0.15;     // m: height at which the hull carries what the gear cannot
 constexpr double rolling = 0.04, braking = 0.3, sideways = 0.7;  // coefficients of friction
 constexpr double standing = 0.01;                                // m/s: slower counts as standing while the brakes hold
 
 }  // namespace
 
-FixedWing::FixedWing() {
+FixedWing::FixedWing(const PlaneBody& body)
+    : body_(body), inertia_(wing::inertia_of(body)), cruise_speed_(wing::cruise_speed(body)) {
     channels_.used = 4;
     channels_.is_motor[2] = true;
 }
@@ -34,7 +31,7 @@ void FixedWing::place(const Vector3& position, double heading) {
 
 void FixedWing::step(const Outputs& outputs, const Surroundings& around, double dt) {
     const double throttle = motor_output(outputs[2]);
-    motor_ += (throttle - motor_) * (dt / motor_lag);
+    motor_ += (throttle - motor_) * (dt / body_.spin_s);
     if (motor_ < 1e-3 && throttle == 0) motor_ = 0;
     const Vector3 air = motion_.attitude.conjugate() * (motion_.velocity - around.wind);
     const Now now{.air = wing::airflow(air, around.air_density),
@@ -50,10 +47,10 @@ void FixedWing::step(const Outputs& outputs, const Surroundings& around, double 
 
 void FixedWing::move(const Now& now, const Surroundings& around, double dt) {
     const double supplied = motor_ * std::sqrt(std::clamp(around.supply, 0.0, 1.2));
-    const Vector3 force = motion_.attitude * wing::force(now.air, supplied);
+    const Vector3 force = motion_.attitude * wing::force(body_, now.air, supplied);
     const double carried = gear_force(now.height);
-    Vector3 acceleration = force / mass + around.push;
-    acceleration.z() += gravity - carried / mass;
+    Vector3 acceleration = force / body_.mass_kg + around.push;
+    acceleration.z() += gravity - carried / body_.mass_kg;
     Vector3 velocity = motion_.velocity + acceleration * dt;
     touches_ground_ = carried > 0;
     const bool stands = touches_ground_ && now.brakes && motor_ == 0 && horizontal_length(motion_.velocity) < standing;
@@ -71,14 +68,15 @@ void FixedWing::move(const Now& now, const Surroundings& around, double dt) {
 
 double FixedWing::gear_force(double height) const {
     if (height > gear_travel) return 0;
-    return std::max(0.0, mass * gravity - gear_stiffness * height + gear_damping * motion_.velocity.z());
+    const double weight = body_.mass_kg * gravity, stiffness = weight / gear_travel;
+    return std::max(0.0, weight - stiffness * height + gear_damping * body_.mass_kg * motion_.velocity.z());
 }
 
 Vector3 FixedWing::with_wheels(const Vector3& velocity, double load, const Now& now, double dt) const {
     const double yaw = now.euler.yaw;
     const Vector3 forward{std::cos(yaw), std::sin(yaw), 0}, right{-forward.y(), forward.x(), 0};
     const auto slowed = [&](double speed, double friction) {
-        return std::copysign(std::max(std::abs(speed) - friction * load / mass * dt, 0.0), speed);
+        return std::copysign(std::max(std::abs(speed) - friction * load / body_.mass_kg * dt, 0.0), speed);
     };
     const double along = slowed(velocity.dot(forward), now.brakes ? braking : rolling);
     return along * forward + slowed(velocity.dot(right), sideways) * right + Vector3{0, 0, velocity.z()};
@@ -87,10 +85,10 @@ Vector3 FixedWing::with_wheels(const Vector3& velocity, double load, const Now& 
 // Euler's equation.
 Vector3 FixedWing::turned_by_air(const Now& now, double dt) const {
     const Vector3& rates = motion_.rates;
-    const Vector3 moment = wing::natural_moment(now.air, rates) +
-                           wing::control_moment(now.air).cwiseProduct(now.controls) -
-                           rates.cross(wing::inertia.cwiseProduct(rates));
-    return rates + moment.cwiseQuotient(wing::inertia) * dt;
+    const Vector3 moment = wing::natural_moment(body_, now.air, rates) +
+                           wing::control_moment(body_, now.air).cwiseProduct(now.controls) -
+                           rates.cross(inertia_.cwiseProduct(rates));
+    return rates + moment.cwiseQuotient(inertia_) * dt;
 }
 
 // Wheels keep the wings level. They carry the nose until the elevator lifts it: the faster the plane, the more the air
@@ -98,8 +96,8 @@ Vector3 FixedWing::turned_by_air(const Now& now, double dt) const {
 Vector3 FixedWing::turned_on_wheels(const Now& now, double dt) const {
     constexpr double levelling = 4;  // 1/s
     constexpr double tail_strike = to_radians(14);
-    const double airborne = std::clamp(now.air.speed / wing::cruise_speed, 0.0, 1.0);
-    const double turn = horizontal_length(motion_.velocity) / tightest_turn * now.controls.z();
+    const double airborne = std::clamp(now.air.speed / cruise_speed_, 0.0, 1.0);
+    const double turn = horizontal_length(motion_.velocity) / body_.turn_radius_m * now.controls.z();
     const Vector3 wheels = Vector3(-levelling * now.euler.roll, -levelling * now.euler.pitch, turn);
     Vector3 rates = motion_.rates + (wheels - motion_.rates) * (dt / gear_lag);
     rates.y() += airborne * (turned_by_air(now, dt).y() - rates.y());

@@ -15,13 +15,11 @@ namespace mavloom::flight {
 
 class FixedWing final : public Plant {
 public:
-    // The radius of the tightest turn of the nose wheel, in metres.
-    static constexpr double tightest_turn = 5;
-
-    FixedWing();
+    explicit FixedWing(const PlaneBody& body);
 
     void step(const Outputs& outputs, const Surroundings& around, double dt) override;
     void place(const Vector3& position, double heading) override;
+    void set_mass(double kg) override { body_.mass_kg = kg; }
 
 private:
     // The plane at the start of a step.
@@ -41,7 +39,10 @@ private:
     [[nodiscard]] Vector3 turned_by_air(const Now& now, double dt) const;
     [[nodiscard]] Vector3 turned_on_wheels(const Now& now, double dt) const;
 
-    double motor_ = 0;  // speed, 0 to 1
+    PlaneBody body_;
+    const Vector3 inertia_;
+    const double cruise_speed_;  // m/s, airspeed
+    double motor_ = 0;           // speed, 0 to 1
 };
 
 }  // namespace mavloom::flight

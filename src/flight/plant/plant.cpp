@@ -22,10 +22,10 @@ void Plant::rest_at(const Vector3& position, double heading) {
     thrust_ = load_ = 0;
 }
 
-std::unique_ptr<Plant> make_plant(Kind kind, const CopterBody& body) {
-    if (kind == Kind::plane) return std::make_unique<FixedWing>();
-    if (kind == Kind::rover) return std::make_unique<Rover>();
-    return std::make_unique<Multicopter>(body);
+std::unique_ptr<Plant> make_plant(Kind kind, const Body& body) {
+    if (kind == Kind::plane) return std::make_unique<FixedWing>(body.plane);
+    if (kind == Kind::rover) return std::make_unique<Rover>(body.rover);
+    return std::make_unique<Multicopter>(body.copter);
 }
 
 }  // namespace mavloom::flight

@@ -80,8 +80,8 @@ public:
     virtual void step(const Outputs& outputs, const Surroundings& around, double dt) = 0;
     // Puts the vehicle at rest, usually on the ground.
     virtual void place(const Vector3& position, double heading) = 0;
-    // The load of a multicopter changed. Its inertia stays.
-    virtual void set_mass(double /*kg*/) {}
+    // The load changed. The inertia stays.
+    virtual void set_mass(double kg) = 0;
     // The origin of the local frame moved: `by` is added to every position. The motion continues.
     void move_origin(const Vector3& by) { motion_.position += by; }
 
@@ -109,6 +109,6 @@ protected:
     Vector3 air_velocity_ = Vector3::Zero();
 };
 
-[[nodiscard]] std::unique_ptr<Plant> make_plant(Kind kind, const CopterBody& body);
+[[nodiscard]] std::unique_ptr<Plant> make_plant(Kind kind, const Body& body);
 
 }  // namespace mavloom::flight

@@ -8,13 +8,14 @@ namespace mavloom::flight {
 
 namespace {
 
-constexpr double steering_lag = 0.15;    // s
 constexpr double stiction = 0.01;        // share of the drive output that does not move a resting rover
 constexpr double standing_speed = 0.01;  // m/s
 constexpr double load_speed = 5;         // m/s, at which the load is 1
 constexpr double load_pull = 3;          // m/s^2, that adds 1 to the load
 
 }  // namespace
+
+Rover::Rover(const RoverBody& body) : body_(body) { channels_.used = 2; }
 
 void Rover::place(const Vector3& position, double heading) {
     rest_at(position, heading);
@@ -39,14 +40,14 @@ void Rover::step(const Outputs& outputs, const Surroundings& around, double dt) 
 }
 
 void Rover::drive(double output, double dt) {
-    speed_ += pull * (output - speed_ / top_speed) * dt;
+    speed_ += body_.thrust_n / body_.mass_kg * (output - speed_ / body_.top_speed_m_s) * dt;
     if (std::abs(output) < stiction && std::abs(speed_) < standing_speed) speed_ = 0;
 }
 
 void Rover::steer(double output, double dt) {
-    const double tightest = std::min(1 / tightest_turn, tyre_grip / std::max(speed_ * speed_, 0.01));
-    const double wanted = std::clamp(output / tightest_turn, -tightest, tightest);
-    curvature_ += (wanted - curvature_) * (dt / steering_lag);
+    const double tightest = std::min(1 / body_.turn_radius_m, body_.grip_m_s2 / std::max(speed_ * speed_, 0.01));
+    const double wanted = std::clamp(output / body_.turn_radius_m, -tightest, tightest);
+    curvature_ += (wanted - curvature_) * (dt / body_.steering_lag_s);
     if (std::abs(curvature_) < 1e-9) curvature_ = 0;
 }
 

@@ -11,20 +11,17 @@ namespace mavloom::flight {
 
 class Rover final : public Plant {
 public:
-    static constexpr double top_speed = 10;       // m/s at full drive output
-    static constexpr double pull = 15;            // m/s^2, by full drive output at rest
-    static constexpr double tightest_turn = 0.8;  // m, radius at full steering output
-    static constexpr double tyre_grip = 4;        // m/s^2 that the tyres hold sideways
-
-    Rover() { channels_.used = 2; }
+    explicit Rover(const RoverBody& body);
 
     void step(const Outputs& outputs, const Surroundings& around, double dt) override;
     void place(const Vector3& position, double heading) override;
+    void set_mass(double kg) override { body_.mass_kg = kg; }
 
 private:
     void drive(double output, double dt);
     void steer(double output, double dt);
 
+    RoverBody body_;
     double heading_ = 0, speed_ = 0, curvature_ = 0;
 };
 

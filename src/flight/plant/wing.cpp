@@ -8,29 +8,24 @@ namespace mavloom::flight::wing {
 
 namespace {
 
-constexpr double drag_zero = 0.03;
-constexpr double induced = 1 / (pi * 0.8 * 7);  // of an aspect ratio of 7
-constexpr double side_slope = 0.6;              // per rad
-constexpr double static_thrust = 12;            // N
-constexpr double pitch_speed = 40;              // m/s, at which the propeller has no thrust left
-constexpr double fully_stalled = to_radians(20);
+constexpr double pitch_of_stall = -0.6;  // moment coefficient, per rad beyond the stall
+constexpr double stall_width_deg = 7;    // from the stall to a wing that acts as a flat plate
 
-constexpr double span = 1.67, chord = 0.24;  // m
-// Coefficients of the moments: by the rates, the angles (per rad) and full deflections. The plane is in trim, with its
-// elevator centred, at 2.5 degrees of attack: in level flight at cruise speed.
-constexpr double roll_damping = -0.5, pitch_damping = -15, yaw_damping = -0.12;
-constexpr double pitch_stiffness = -0.6, yaw_stiffness = 0.05;
-constexpr double pitch_of_stall = -0.6;  // per rad beyond the stall
-constexpr double trim_attack = to_radians(2.5);
-constexpr double full_ailerons = 0.088, full_elevator = 0.3, full_rudder = 0.03;
+double fully_stalled(const PlaneBody& body) noexcept { return to_radians(body.stall_deg + stall_width_deg); }
 
 // 0 while the flow is attached, 1 when the wing acts as a flat plate.
-double stalled_share(double attack) noexcept {
-    const double x = std::clamp((std::abs(attack) - stall_angle) / (fully_stalled - stall_angle), 0.0, 1.0);
+double stalled_share(const PlaneBody& body, double attack) noexcept {
+    const double stall_angle = to_radians(body.stall_deg);
+    const double x = std::clamp((std::abs(attack) - stall_angle) / (fully_stalled(body) - stall_angle), 0.0, 1.0);
     return x * x * (3 - 2 * x);
 }
 
 }  // namespace
+
+double cruise_speed(const PlaneBody& body) noexcept {
+    constexpr double standard = 15;  // m/s
+    return standard * (stall_speed(body) / stall_speed(PlaneBody{}));
+}
 
 Airflow airflow(const Vector3& body_velocity, double density) {
     const double speed = body_velocity.norm(), ahead = std::max(body_velocity.x(), 0.0);
@@ -42,47 +37,50 @@ Airflow airflow(const Vector3& body_velocity, double density) {
             .head_pressure = 0.5 * density * ahead * ahead};
 }
 
-double lift_coefficient(double attack) {
-    const double stalled = stalled_share(attack);
+double lift_coefficient(const PlaneBody& body, double attack) {
+    const double stalled = stalled_share(body, attack);
     const double sine = std::sin(attack), cosine = std::cos(attack);
     const double plate = 2 * std::copysign(sine * sine, attack) * cosine;
-    return (1 - stalled) * (lift_zero + lift_slope * attack) + stalled * plate;
+    return (1 - stalled) * (body.lift_zero + body.lift_slope * attack) + stalled * plate;
 }
 
-double drag_coefficient(double attack) {
-    const double stalled = stalled_share(attack);
-    const double lift = lift_zero + lift_slope * std::clamp(attack, -fully_stalled, fully_stalled);
+double drag_coefficient(const PlaneBody& body, double attack) {
+    const double stalled = stalled_share(body, attack), most = fully_stalled(body);
+    const double lift = body.lift_zero + body.lift_slope * std::clamp(attack, -most, most);
     const double sine = std::sin(attack);
-    return drag_zero + induced * lift * lift + stalled * 2 * sine * sine;
+    return body.drag_zero + body.induced * lift * lift + stalled * 2 * sine * sine;
 }
 
-Vector3 force(const Airflow& air, double motor) {
-    Vector3 sum{motor * motor * full_thrust(air.speed), 0, 0};
+Vector3 force(const PlaneBody& body, const Airflow& air, double motor) {
+    Vector3 sum{motor * motor * full_thrust(body, air.speed), 0, 0};
     if (air.speed < 0.1) return sum;
-    const double scale = air.pressure * area;
+    const double scale = air.pressure * body.area_m2;
     const Vector3 up{std::sin(air.attack), 0, -std::cos(air.attack)};
-    sum += scale * lift_coefficient(air.attack) * up;
-    sum -= scale * drag_coefficient(air.attack) / air.speed * air.body;
-    sum.y() -= scale * side_slope * air.body.y() / air.speed;
+    sum += scale * lift_coefficient(body, air.attack) * up;
+    sum -= scale * drag_coefficient(body, air.attack) / air.speed * air.body;
+    sum.y() -= scale * body.side_slope * air.body.y() / air.speed;
     return sum;
 }
 
-Vector3 natural_moment(const Airflow& air, const Vector3& rates) {
+Vector3 natural_moment(const PlaneBody& body, const Airflow& air, const Vector3& rates) {
     const double turn_scale = 0.5 / std::max(air.speed, 1.0);
+    const double stall_angle = to_radians(body.stall_deg);
     const double beyond = air.attack - std::clamp(air.attack, -stall_angle, stall_angle);
-    const double roll = roll_damping * span * turn_scale * rates.x();
-    const double pitch = pitch_stiffness * (air.attack - trim_attack) + pitch_of_stall * beyond +
-                         pitch_damping * chord * turn_scale * rates.y();
-    const double yaw = yaw_stiffness * air.slip + yaw_damping * span * turn_scale * rates.z();
-    return air.head_pressure * area * Vector3(span * roll, chord * pitch, span * yaw);
+    const double roll = -body.roll_damping * body.span_m * turn_scale * rates.x();
+    const double pitch = -body.pitch_stiffness * (air.attack - to_radians(body.trim_deg)) + pitch_of_stall * beyond -
+                         body.pitch_damping * body.chord_m * turn_scale * rates.y();
+    const double yaw = body.yaw_stiffness * air.slip - body.yaw_damping * body.span_m * turn_scale * rates.z();
+    return air.head_pressure * body.area_m2 * Vector3(body.span_m * roll, body.chord_m * pitch, body.span_m * yaw);
 }
 
-Vector3 control_moment(const Airflow& air) {
-    return air.head_pressure * area * Vector3(span * full_ailerons, chord * full_elevator, span * full_rudder);
+Vector3 control_moment(const PlaneBody& body, const Airflow& air) {
+    const Vector3 arms(body.span_m * body.full_ailerons, body.chord_m * body.full_elevator,
+                       body.span_m * body.full_rudder);
+    return air.head_pressure * body.area_m2 * arms;
 }
 
-double full_thrust(double airspeed) noexcept {
-    return static_thrust * std::clamp(1 - airspeed / pitch_speed, 0.0, 1.0);
+double full_thrust(const PlaneBody& body, double airspeed) noexcept {
+    return body.thrust_n * std::clamp(1 - airspeed / body.pitch_speed_m_s, 0.0, 1.0);
 }
 
 }  // namespace mavloom::flight::wing

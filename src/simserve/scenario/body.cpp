@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "mavloom/endpoint/grammar.hpp"
 #include "simserve/scenario/named_numbers.hpp"
 
 namespace mavloom::simserve {
@@ -80,7 +81,7 @@ SetupResult<void> check_body(const CopterBody& body) {
 
 }  // namespace
 
-SetupResult<sim::CopterBody> parse_body(std::string_view text) {
+SetupResult<sim::CopterBody> parse_copter(std::string_view text) {
     const auto parts = named_parts_of(text);
     if (!parts) return tl::unexpected(parts.error());
     const auto preset = preset_index(*parts, sim::body_names);
@@ -91,6 +92,15 @@ SetupResult<sim::CopterBody> parse_body(std::string_view text) {
         return tl::unexpected(std::move(done.error()));
     if (auto done = check_body(body); !done) return tl::unexpected(std::move(done.error()));
     return body;
+}
+
+SetupResult<void> set_body(std::string_view text, sim::VehicleOptions& options) {
+    switch (options.kind) {
+        case sim::Kind::plane: return endpoint::put(parse_plane(text), options.body.plane);
+        case sim::Kind::rover: return endpoint::put(parse_rover(text), options.body.rover);
+        case sim::Kind::quad: break;
+    }
+    return endpoint::put(parse_copter(text), options.body.copter);
 }
 
 }  // namespace mavloom::simserve

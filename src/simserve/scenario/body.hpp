@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parses the body of a multicopter in a scenario. Private to module simserve; pure functions. Errors are `usage`.
+// Parses the body of a vehicle in a scenario. Private to module simserve; pure functions. Errors are `usage`.
 #pragma once
 
 #include <string_view>
@@ -9,8 +9,14 @@
 
 namespace mavloom::simserve {
 
-// "PRESET" or "preset:PRESET,frame:FRAME,arm:0.25,mass:2"; each part may be left out. `frame` and `arm` replace the
-// places of the preset's rotors; other keys replace one number each. A body that no pilot could fly is an error.
-[[nodiscard]] SetupResult<sim::CopterBody> parse_body(std::string_view text);
+// "PRESET" or "preset:PRESET,mass:2"; each part may be left out. Keys replace one number of the preset each, but a
+// multicopter's `frame` and `arm` replace the places of its rotors, and a rover's `wheel_base` and `steering` its turn
+// radius. A body that no pilot could fly or drive is an error.
+[[nodiscard]] SetupResult<sim::CopterBody> parse_copter(std::string_view text);
+[[nodiscard]] SetupResult<sim::PlaneBody> parse_plane(std::string_view text);
+[[nodiscard]] SetupResult<sim::RoverBody> parse_rover(std::string_view text);
+
+// Parses the body of the kind that the options have.
+[[nodiscard]] SetupResult<void> set_body(std::string_view text, sim::VehicleOptions& options);
 
 }  // namespace mavloom::simserve

@@ -159,7 +159,7 @@ constexpr std::array<Key<ScenarioVehicle>, 15> all_vehicle_keys{{
     {"wind", "0,0", [](ScenarioVehicle& v, Text t) { return put(parse_wind(t), v.options.wind); }},
     {"battery", "capacity:5000,cells:4,minutes:20,start:100",
      [](ScenarioVehicle& v, Text t) { return put(parse_battery(t), v.options.battery); }},
-    {"body", "standard", [](ScenarioVehicle& v, Text t) { return put(parse_body(t), v.options.body); }},
+    {"body", "standard", [](ScenarioVehicle& v, Text t) { return set_body(t, v.options); }},
     {"gimbal", "false", [](ScenarioVehicle& v, Text t) { return put(parse_bool(t), v.options.has_gimbal); }},
     {"traffic", "0", [](ScenarioVehicle& v, Text t) { return put(parse_integer(t, 0, max_traffic), v.options.traffic); }},
     {"logs", "2", [](ScenarioVehicle& v, Text t) { return put(parse_integer(t, 0, max_logs), v.options.logs); }},

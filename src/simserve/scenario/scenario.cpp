@@ -169,8 +169,6 @@ private:
         if (auto done = check_systems(vehicle, section, next); !done) return done;
         if (vehicle.options.motion == sim::Motion::random && vehicle.options.kind != sim::Kind::quad)
             return wrong(section, {"motion", "kind"}, "random motion is for a quad");
-        if (find(section, "body").origin != Origin::by_default && vehicle.options.kind != sim::Kind::quad)
-            return wrong(section, {"body", "kind"}, "a body is for a quad");
         complete(section, vehicle);
         scenario_.sections.push_back(std::move(section));
         scenario_.vehicles.push_back(std::move(vehicle));

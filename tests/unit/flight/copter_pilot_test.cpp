@@ -34,7 +34,7 @@ class OtherBodyTest : public ::testing::TestWithParam<CopterBody> {};
 INSTANTIATE_TEST_SUITE_P(All, OtherBodyTest, ::testing::ValuesIn(bodies()));
 
 TEST_P(OtherBodyTest, FliesToAPointAndLands) {
-    test::Piloted copter(Kind::quad, GetParam());
+    test::Piloted copter(Kind::quad, {.copter = GetParam()});
     copter.place(Vector3::Zero(), 0);
     Setpoint setpoint{.steering = Steering::trajectory, .position = {0, 0, -10}, .yaw = 1};
     const auto run = [&](double seconds) {

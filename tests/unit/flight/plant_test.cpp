@@ -33,8 +33,8 @@ CopterBody without_drag(CopterBody body = {}) {
 
 class High {  // a plant in the air
 public:
-    explicit High(const CopterBody& body) : High(Kind::quad, body) {}
-    explicit High(Kind kind, const CopterBody& body = {}) : plant(make_plant(kind, body)) {
+    explicit High(const CopterBody& body) : High(Kind::quad, {.copter = body}) {}
+    explicit High(Kind kind, const Body& body = {}) : plant(make_plant(kind, body)) {
         plant->place({0, 0, -10'000}, 0);
     }
     void run(const Outputs& outputs, double seconds, double dt = 0.001) const {

@@ -167,6 +167,18 @@ TEST_F(AirframeTest, OutputsOfARoverDriveAndSteerItAsTheirSignsSay) {
     EXPECT_TRUE(pair->status().touches_ground);
 }
 
+TEST_F(AirframeTest, MoreMassMakesARoverSlower) {
+    begin(Kind::rover);
+    fly(125, with({{5, 0.5f}}));
+    const double light = pair->status().north_m_s;
+    pair->reset();
+    pair->set_mass(15);  // three times the usual one
+    fly(125, with({{5, 0.5f}}));
+    // 10 u (1 - exp(-t a / 10)) after half a second, with 15 and 5 m/s^2.
+    EXPECT_NEAR(light, 5 * (1 - std::exp(-0.75)), 0.1);
+    EXPECT_NEAR(pair->status().north_m_s, 5 * (1 - std::exp(-0.25)), 0.1);
+}
+
 TEST_F(AirframeTest, APushMovesAPlaneInTheAirAndARoverAlongItsWheels) {
     take_off();
     const double before = pair->status().east_m_s;

@@ -223,7 +223,7 @@ TEST_F(PairTest, ABoardGetsHeartbeatsAndNoTrueState) {
 
 TEST_F(PairTest, APushMovesItByItsVelocity) {
     options.vehicle.has_noise = false;
-    options.vehicle.body.drag = 0;
+    options.vehicle.body.copter.drag = 0;
     begin();
     fly(500, four(0.6f));
     const double before = pair->status().north_m_s;

@@ -536,7 +536,7 @@ TEST_F(TelemetryInFlight, AllMessagesOfAnInstantAgree) {
 TEST(TelemetryOfBodies, NamesTheKindOfMulticopter) {
     for (const auto& [frame, type] : {std::pair{Frame::hexa_x, 13}, {Frame::octo_plus, 14}, {Frame::quad_plus, 2}}) {
         VehicleOptions options;
-        set_frame(options.body, frame, 0.3);
+        set_frame(options.body.copter, frame, 0.3);
         Rig rig(options);
         rig.run(1.0);
         EXPECT_EQ(rig.last<msg::Heartbeat>()->type, type);

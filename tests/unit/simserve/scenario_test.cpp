@@ -185,17 +185,17 @@ TEST(ScenarioValues, NumbersAreFiniteAndWhole) {
 }
 
 TEST(ScenarioValues, ABodyIsAPresetWithChanges) {
-    const auto iris = parse_body("iris");
+    const auto iris = parse_copter("iris");
     ASSERT_TRUE(iris);
     EXPECT_EQ(iris->mass_kg, 1.55);
     EXPECT_EQ(iris->rotors[1].right_m, -0.2);
 
-    const auto heavy = parse_body("iris,mass:2");
+    const auto heavy = parse_copter("iris,mass:2");
     ASSERT_TRUE(heavy);
     EXPECT_EQ(heavy->mass_kg, 2);
     EXPECT_EQ(heavy->rotors[1].right_m, -0.2);
 
-    const auto hexa = parse_body("arm:0.3,frame:hexa-x,inertia_z:0.2,preset:jmavsim,thrust:6");
+    const auto hexa = parse_copter("arm:0.3,frame:hexa-x,inertia_z:0.2,preset:jmavsim,thrust:6");
     ASSERT_TRUE(hexa);
     EXPECT_EQ(hexa->rotor_count, 6);
     EXPECT_NEAR(hexa->rotors[0].right_m, 0.3, 1e-12);
@@ -206,7 +206,7 @@ TEST(ScenarioValues, ABodyIsAPresetWithChanges) {
 
 TEST(ScenarioValues, ABodyThatCannotFlyIsRefused) {
     const auto error = [](std::string_view text) {
-        const auto body = parse_body(text);
+        const auto body = parse_copter(text);
         return body ? "" : body.error().text;
     };
     EXPECT_THAT(error("mass:3"), HasSubstr("its 4 motors lift 29.4 N, and it weighs 29.4 N"));
@@ -218,6 +218,90 @@ TEST(ScenarioValues, ABodyThatCannotFlyIsRefused) {
     EXPECT_THAT(error("frame:hexa"), HasSubstr("frame: 'hexa' is none of quad-x"));
     EXPECT_THAT(error("mas:2"), HasSubstr("did you mean 'mass'?"));
     EXPECT_THAT(error("mass:2,iris"), HasSubstr("'iris' is not NAME:VALUE"));
+}
+
+TEST(ScenarioValues, TheBodyOfAPlaneIsAPresetWithChanges) {
+    const auto plane = parse_plane("mass:2,thrust:20,inertia_y:0.1,stall:15,elevator:0.4");
+    ASSERT_TRUE(plane) << plane.error().text;
+    EXPECT_EQ(plane->mass_kg, 2);
+    EXPECT_EQ(plane->thrust_n, 20);
+    EXPECT_EQ(plane->inertia_kg_m2[1], 0.1);
+    EXPECT_EQ(plane->stall_deg, 15);
+    EXPECT_EQ(plane->full_elevator, 0.4);
+    EXPECT_EQ(plane->area_m2, sim::PlaneBody{}.area_m2);
+
+    const auto aerosonde = parse_plane("aerosonde,mass:13.5");
+    ASSERT_TRUE(aerosonde) << aerosonde.error().text;
+    EXPECT_EQ(aerosonde->mass_kg, 13.5);
+    EXPECT_EQ(aerosonde->span_m, 2.9);
+}
+
+TEST(ScenarioValues, ThePresetsOfEveryKindAreGood) {
+    for (const auto name : sim::body_names) EXPECT_TRUE(parse_copter(name)) << name;
+    for (const auto name : sim::plane_names) EXPECT_TRUE(parse_plane(name)) << name;
+    for (const auto name : sim::rover_names) EXPECT_TRUE(parse_rover(name)) << name;
+}
+
+TEST(ScenarioValues, APlaneThatCannotFlyIsRefused) {
+    const auto error = [](std::string_view text) {
+        const auto body = parse_plane(text);
+        return body ? "" : body.error().text;
+    };
+    // sqrt(2 * 100 * 9.80665 / (1.225 * 0.4 * 1.171)) = 58.5 m/s.
+    EXPECT_THAT(error("mass:100,thrust:1000"), HasSubstr("it stalls at 58.5 m/s"));
+    EXPECT_THAT(error("lift_zero:-0.5,lift_slope:1"), HasSubstr("its greatest lift coefficient is -0.27"));
+    // At 1.3 times the stall speed, 9.3 m/s.
+    EXPECT_THAT(error("thrust:2"), HasSubstr("at 9.3 m/s its motor pulls 1.5 N, and its drag is 1."));
+    EXPECT_THAT(error("pitch_speed:9"), HasSubstr("its motor pulls 0.0 N"));
+    EXPECT_THAT(error("ailerons:0.001"), HasSubstr("its ailerons roll it by at most 0.3"));
+    EXPECT_THAT(error("pitch_stiffness:5,elevator:0.01"), HasSubstr("its elevator cannot hold it"));
+    EXPECT_THAT(error("roll_damping:30"), HasSubstr("damping or its stiffness is too large"));
+    EXPECT_THAT(error("inertia_z:0.0001"), HasSubstr("damping or its stiffness is too large"));
+    EXPECT_THAT(error("mass:0"), HasSubstr("mass: '0' is not a number from 0.05 to 500"));
+    EXPECT_THAT(error("trim:nan"), HasSubstr("trim: 'nan' is not a number from -5 to 10"));
+    EXPECT_THAT(error("iris"), HasSubstr("preset: 'iris' is none of standard, aerosonde"));
+    EXPECT_THAT(error("elevater:1"), HasSubstr("did you mean 'elevator'?"));
+}
+
+TEST(ScenarioValues, TheBodyOfARoverIsAPresetWithChanges) {
+    const auto rover = parse_rover("sih,mass:25,grip:6");
+    ASSERT_TRUE(rover) << rover.error().text;
+    EXPECT_EQ(rover->mass_kg, 25);
+    EXPECT_EQ(rover->grip_m_s2, 6);
+    EXPECT_NEAR(rover->turn_radius_m, 0.556, 1e-3);  // 0.321 m / tan(30 degrees)
+    const auto long_one = parse_rover("wheel_base:2,steering:45");
+    ASSERT_TRUE(long_one) << long_one.error().text;
+    EXPECT_NEAR(long_one->turn_radius_m, 2, 1e-9);
+}
+
+TEST(ScenarioValues, ARoverThatCannotDriveIsRefused) {
+    const auto error = [](std::string_view text) {
+        const auto body = parse_rover(text);
+        return body ? "" : body.error().text;
+    };
+    EXPECT_THAT(error("thrust:1"), HasSubstr("accelerates it by 0.20 m/s^2"));
+    EXPECT_THAT(error("thrust:10000"), HasSubstr("accelerates it by 2000 m/s^2, too much for its top speed of 10"));
+    EXPECT_THAT(error("wheel_base:1"), HasSubstr("wheel_base and steering come together"));
+    EXPECT_THAT(error("wheel_base:1,steering:30,turn_radius:2"), HasSubstr("in the place of turn_radius"));
+    EXPECT_THAT(error("wheel_base:20,steering:2"), HasSubstr("its turn radius is 572.73 m"));
+    EXPECT_THAT(error("steering:90,wheel_base:1"), HasSubstr("steering: '90' is not a number from 2 to 70"));
+    EXPECT_THAT(error("area:1"), HasSubstr("'area' is none of preset, wheel_base"));
+}
+
+TEST(Scenario, ABodyIsOneOfTheVehiclesKind) {
+    const auto vehicles = read(
+                              "[[vehicle]]\nkind = \"plane\"\nbody = \"aerosonde\"\n[[vehicle]]\nkind = \"rover\"\n"
+                              "[vehicle.body]\nmass = 10\n[[vehicle]]\nbody = \"iris\"\n")
+                              .each_vehicle();
+    EXPECT_EQ(vehicles[0].options.body.plane.mass_kg, 11);
+    EXPECT_EQ(vehicles[1].options.body.rover.mass_kg, 10);
+    EXPECT_EQ(vehicles[2].options.body.copter.mass_kg, 1.55);
+    const auto document = config::parse_document(
+        "[[vehicle]]\nkind = \"plane\"\n[vehicle.body]\nmass = 2\nrotor_drag = 1\n", "x.toml");
+    ASSERT_TRUE(document);
+    const auto wrong = read_scenario(*document, {}, {});
+    ASSERT_FALSE(wrong);
+    EXPECT_THAT(wrong.error().text, HasSubstr(":5: body: 'rotor_drag' is none of preset, mass"));
 }
 
 }  // namespace

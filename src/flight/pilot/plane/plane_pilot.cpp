@@ -4,40 +4,32 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flight/plant/fixed_wing.hpp"
-
 namespace mavloom::flight::wing {
 
 namespace {
 
-constexpr double course_gain = 1.0;            // 1/s
-constexpr double look_ahead_time = 3.5;        // s
-constexpr double altitude_gain = 0.5;          // 1/s
-constexpr double speed_gain = 0.6;             // 1/s
-constexpr double climb_acceleration = 3;       // m/s^2: how fast the wanted climb rate changes
-constexpr double default_radius = 50;          // m
-constexpr double smallest_radius = 10;         // m
-constexpr double safe_angle = to_radians(10);  // the greatest angle of attack that the pilot asks for
-constexpr double rate_lag = 0.08;              // s, with which the body's rates follow
-constexpr double slowest_flow = 7;             // m/s: below, deflections do not grow any more
+constexpr double course_gain = 1.0;       // 1/s
+constexpr double look_ahead_time = 3.5;   // s
+constexpr double altitude_gain = 0.5;     // 1/s
+constexpr double speed_gain = 0.6;        // 1/s
+constexpr double climb_acceleration = 3;  // m/s^2: how fast the wanted climb rate changes
+constexpr double default_radius = 50;     // m
+constexpr double smallest_radius = 10;    // m
+constexpr double rate_lag = 0.08;         // s, with which the body's rates follow
+constexpr double slowest_flow = 7;        // m/s: below, deflections do not grow any more
 constexpr double takeoff_pitch = to_radians(9);
 constexpr double steepest_path = to_radians(25);
 constexpr double flare_height = 4;     // m
 constexpr double cut_height = 1;       // m: below, the flare is without power
 constexpr double float_distance = 20;  // m that the flare adds to the glide
 
-constexpr double approach_speed(const SpeedLimits& limits) noexcept { return 1.1 * limits.air_minimum; }
+// The greatest angle of attack that the pilot asks for: 3 degrees below the stall.
+double safe_angle(const PlaneBody& body) noexcept { return to_radians(body.stall_deg - 3); }
 
-SpeedLimits bounded(const SpeedLimits& given) noexcept {
-    SpeedLimits limits = given;
-    limits.air_minimum = finite_or(given.air_minimum, 12, 9, 20);
-    limits.air_maximum = finite_or(given.air_maximum, 25, limits.air_minimum + 1, 30);
-    limits.horizontal = finite_or(given.horizontal, cruise_speed, limits.air_minimum, limits.air_maximum);
-    limits.up = finite_or(given.up, 3, 0.5, 10);
-    limits.down = finite_or(given.down, 1.5, 0.5, 10);
-    limits.tilt = finite_or(given.tilt, to_radians(45), to_radians(5), to_radians(60));
-    return limits;
-}
+// Of the air, N: smaller ones count as this one.
+double least_force(const PlaneBody& body) noexcept { return body.mass_kg / 1.5; }
+
+constexpr double approach_speed(const SpeedLimits& limits) noexcept { return 1.1 * limits.air_minimum; }
 
 double throttle_of(double wanted) noexcept { return finite_or(wanted, 0, 0, 1); }
 
@@ -71,8 +63,10 @@ std::optional<Course> course_towards(const Setpoint& setpoint, const Situation& 
 // How far the plane may bank: less near the ground, and never so far that the wings would have to stall.
 double bank_limit(const SpeedLimits& limits, const Situation& now) {
     const double by_height = limits.tilt * std::clamp(0.15 + now.height / 15, 0.15, 1.0);
-    const double needed = mass * gravity / std::max(now.air.pressure * area, 1.0);
-    const double by_stall = std::acos(std::clamp(needed / (lift_zero + lift_slope * safe_angle), 0.3, 1.0));
+    const double needed = now.body.mass_kg * gravity /
+                          std::max(now.air.pressure * now.body.area_m2, least_force(now.body));
+    const double most = now.body.lift_zero + now.body.lift_slope * safe_angle(now.body);
+    const double by_stall = std::acos(std::clamp(needed / most, 0.3, 1.0));
     return std::min(by_height, by_stall);
 }
 
@@ -106,40 +100,44 @@ double wanted_airspeed(const Setpoint& setpoint, const SpeedLimits& limits, cons
     return std::clamp(wanted + now.air.speed - ground_speed, limits.air_minimum, limits.air_maximum);
 }
 
-double drag(const Airflow& air) { return air.pressure * area * drag_coefficient(air.attack); }
+double drag(const Situation& now) {
+    return now.air.pressure * now.body.area_m2 * drag_coefficient(now.body, now.air.attack);
+}
 
 // The power that the motor has beyond the drag, as a climb rate.
-double greatest_climb(const Airflow& air) {
-    return (0.95 * full_thrust(air.speed) - drag(air)) * air.speed / (mass * gravity);
+double greatest_climb(const Situation& now) {
+    const double surplus = 0.95 * full_thrust(now.body, now.air.speed) - drag(now);
+    return surplus * now.air.speed / (now.body.mass_kg * gravity);
 }
 
 // Keeps the airspeed between its limits, before all else.
 double protect_speed(double climb, const SpeedLimits& limits, const Situation& now) {
     const double low = 0.85 * limits.air_minimum;
     const double surplus = std::clamp((now.air.speed - low) / (limits.air_minimum - low), -1.0, 1.0);
-    climb = std::min(climb, surplus * std::max(greatest_climb(now.air), 1.0));
-    if (now.air.speed > limits.air_maximum) climb = std::max(climb, -drag(now.air) * now.air.speed / (mass * gravity));
+    climb = std::min(climb, surplus * std::max(greatest_climb(now), 1.0));
+    if (now.air.speed > limits.air_maximum)
+        climb = std::max(climb, -drag(now) * now.air.speed / (now.body.mass_kg * gravity));
     return climb;
 }
 
 double throttle_for(double climb, double airspeed, const Situation& now) {
     const Airflow& air = now.air;
     const double acceleration = std::clamp(speed_gain * (airspeed - air.speed), -2.0, 2.0);
-    const double needed = drag(air) + mass * (acceleration + gravity * climb / std::max(air.speed, 5.0));
-    return std::sqrt(std::clamp(needed / std::max(full_thrust(air.speed), 1.0), 0.0, 1.0));
+    const double needed = drag(now) + now.body.mass_kg * (acceleration + gravity * climb / std::max(air.speed, 5.0));
+    return std::sqrt(std::clamp(needed / std::max(full_thrust(now.body, air.speed), now.body.thrust_n / 12), 0.0, 1.0));
 }
 
 // The angle of attack that carries the plane at this bank.
-double carrying_attack(double roll, double path, const Airflow& air) {
-    const double lift = mass * gravity * std::cos(path) / std::max(std::cos(roll), 0.3);
-    const double coefficient = lift / std::max(air.pressure * area, 1.0);
-    return std::min((coefficient - lift_zero) / lift_slope, safe_angle);
+double carrying_attack(double roll, double path, const Situation& now) {
+    const double lift = now.body.mass_kg * gravity * std::cos(path) / std::max(std::cos(roll), 0.3);
+    const double coefficient = lift / std::max(now.air.pressure * now.body.area_m2, least_force(now.body));
+    return std::min((coefficient - now.body.lift_zero) / now.body.lift_slope, safe_angle(now.body));
 }
 
-double pitch_for(double climb, double roll, const Airflow& air) {
+double pitch_for(double climb, double roll, const Situation& now) {
     const double sine = std::sin(steepest_path);
-    const double path = std::asin(std::clamp(climb / std::max(air.speed, 5.0), -sine, sine));
-    return path + carrying_attack(roll, path, air) * std::cos(roll);
+    const double path = std::asin(std::clamp(climb / std::max(now.air.speed, 5.0), -sine, sine));
+    return path + carrying_attack(roll, path, now) * std::cos(roll);
 }
 
 // --- Attitude
@@ -152,8 +150,9 @@ Vector3 rates_for(double roll, double pitch, const Situation& now) {
     const double sin_pitch = std::sin(now.euler.pitch), cos_pitch = std::max(std::cos(now.euler.pitch), 0.2);
     const double roll_rate = std::clamp(roll_gain * wrap_pi(roll - now.euler.roll), -fastest_roll, fastest_roll);
     const double pitch_rate = std::clamp(pitch_gain * (pitch - now.euler.pitch), -fastest_pitch, fastest_pitch);
-    const double lift = now.air.pressure * area * lift_coefficient(now.air.attack);
-    const double turn = std::clamp(lift * sin_roll / (mass * std::max(now.air.speed, 5.0) * cos_pitch), -2.0, 2.0);
+    const double lift = now.air.pressure * now.body.area_m2 * lift_coefficient(now.body, now.air.attack);
+    const double turn = std::clamp(lift * sin_roll / (now.body.mass_kg * std::max(now.air.speed, 5.0) * cos_pitch),
+                                   -2.0, 2.0);
     return {roll_rate - turn * sin_pitch, pitch_rate * cos_roll + turn * cos_pitch * sin_roll,
             turn * cos_pitch * cos_roll - pitch_rate * sin_roll};
 }
@@ -179,19 +178,21 @@ Command follow_rates(const Vector3& wanted, double throttle, const Situation& no
 // The deflections whose moments bring the rates to the wanted ones. They do not work against the fin.
 Outputs deflections(const Command& command, const Situation& now) {
     Airflow flow = now.air;
+    const double stall_angle = to_radians(now.body.stall_deg);
     flow.attack = std::clamp(flow.attack, -stall_angle, stall_angle);
     flow.slip = 0;
     const double least = 0.5 * now.density * slowest_flow * slowest_flow;
     Airflow reckoned = flow;
     reckoned.head_pressure = std::max(flow.head_pressure, least);
-    const Vector3 wanted = inertia.cwiseProduct(command.rates - now.motion.rates) / rate_lag;
-    const Vector3 needed = (wanted - natural_moment(flow, now.motion.rates)).cwiseQuotient(control_moment(reckoned));
+    const Vector3 wanted = inertia_of(now.body).cwiseProduct(command.rates - now.motion.rates) / rate_lag;
+    const Vector3 moment = wanted - natural_moment(now.body, flow, now.motion.rates);
+    const Vector3 needed = moment.cwiseQuotient(control_moment(now.body, reckoned));
     return {servo_output(needed.x()), servo_output(needed.y()), command.throttle, servo_output(needed.z())};
 }
 
 // On the ground the rudder steers the nose wheel.
-double steering_for(double turn_rate, const Kinematics& motion) {
-    return servo_output(turn_rate * FixedWing::tightest_turn / std::max(horizontal_length(motion.velocity), 0.5));
+double steering_for(double turn_rate, const Situation& now) {
+    return servo_output(turn_rate * now.body.turn_radius_m / std::max(horizontal_length(now.motion.velocity), 0.5));
 }
 
 Outputs outputs_of(const std::array<double, 4>& mixer) {
@@ -223,6 +224,22 @@ double glide(const Setpoint& setpoint, const SpeedLimits& limits, const Situatio
 
 }  // namespace
 
+PlanePilot::PlanePilot(const PlaneBody& body)
+    : body_(body), speed_scale_(cruise_speed(body) / cruise_speed(PlaneBody{})) {}
+
+// A plane that stalls at a higher speed flies faster, whatever the limits are.
+SpeedLimits PlanePilot::bounded(const SpeedLimits& given) const noexcept {
+    const double scale = std::max(speed_scale_, 1.0);
+    SpeedLimits limits = given;
+    limits.air_minimum = finite_or(given.air_minimum, 12 * scale, 9 * scale, 20 * scale);
+    limits.air_maximum = finite_or(given.air_maximum, 25 * scale, limits.air_minimum + 1, 30 * scale);
+    limits.horizontal = finite_or(given.horizontal, 15 * scale, limits.air_minimum, limits.air_maximum);
+    limits.up = finite_or(given.up, 3, 0.5, 10);
+    limits.down = finite_or(given.down, 1.5, 0.5, 10);
+    limits.tilt = finite_or(given.tilt, to_radians(45), to_radians(5), to_radians(60));
+    return limits;
+}
+
 void PlanePilot::start(const Kinematics& /*motion*/) { forget(); }
 
 void PlanePilot::forget() noexcept {
@@ -234,7 +251,8 @@ void PlanePilot::forget() noexcept {
 const Outputs& PlanePilot::step(const Setpoint& setpoint, bool armed, const Plant& plant, const Surroundings& around) {
     const Kinematics& motion = plant.motion();
     const Vector3 air = motion.attitude.conjugate() * (motion.velocity - around.wind);
-    const Situation now{.motion = motion,
+    const Situation now{.body = body_,
+                        .motion = motion,
                         .euler = to_euler(motion.attitude),
                         .air = airflow(air, around.air_density),
                         .height = around.ground - motion.position.z(),
@@ -244,7 +262,7 @@ const Outputs& PlanePilot::step(const Setpoint& setpoint, bool armed, const Plan
     report(command, now);
     if (armed && setpoint.steering == Steering::actuators) return outputs_ = outputs_of(setpoint.mixer);
     outputs_ = deflections(command, now);
-    if (now.on_ground) outputs_[3] = steering_for(command.rates.z(), motion);
+    if (now.on_ground) outputs_[3] = steering_for(command.rates.z(), now);
     return outputs_;
 }
 
@@ -294,7 +312,7 @@ Command PlanePilot::navigate(const Setpoint& setpoint, const Situation& now) {
         climb = std::max(climb, -(0.3 + 0.35 * now.height));
         if (now.height < cut_height) throttle = 0;
     }
-    Command command = hold_attitude(roll, pitch_for(climb, roll, now.air), throttle, now);
+    Command command = hold_attitude(roll, pitch_for(climb, roll, now), throttle, now);
     command.course = course;
     command.climb = climb;
     return command;

@@ -18,6 +18,7 @@ namespace mavloom::flight::wing {
 
 // Everything that the pilot knows about the plane.
 struct Situation {
+    const PlaneBody& body;
     const Kinematics& motion;
     Euler euler;
     Airflow air;
@@ -35,6 +36,8 @@ struct Command {
 
 class PlanePilot final : public Pilot {
 public:
+    explicit PlanePilot(const PlaneBody& body);
+
     const Outputs& step(const Setpoint& setpoint, bool armed, const Plant& plant, const Surroundings& around) override;
     void start(const Kinematics& motion) override;
 
@@ -44,8 +47,11 @@ private:
     [[nodiscard]] Command roll_on_ground(const Setpoint& setpoint, const Situation& now);
     [[nodiscard]] double climb_towards(const Setpoint& setpoint, const SpeedLimits& limits, const Situation& now);
     void forget() noexcept;
+    [[nodiscard]] SpeedLimits bounded(const SpeedLimits& given) const noexcept;
     void report(const Command& command, const Situation& now);
 
+    const PlaneBody body_;
+    const double speed_scale_;             // of its airspeeds, to those of the standard plane
     std::optional<double> held_altitude_;  // m above the local origin
     std::optional<double> run_heading_;    // rad, of the take-off run or the roll-out
     double climb_ = 0;                     // m/s, wanted, without jumps

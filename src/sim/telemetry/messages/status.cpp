@@ -117,7 +117,7 @@ void fill_position(const View& view, HighLatency2& message) {
 bool write_heartbeat(const View& view, ByteSpan payload) {
     const Flight& flight = view.flight;
     const std::uint8_t armed = flight.armed() ? base_armed : 0;
-    return put(Heartbeat{.type = view.firmware.mav_type_of(view.options.body),
+    return put(Heartbeat{.type = view.firmware.mav_type_of(view.options.body.copter),
                          .autopilot = view.firmware.mav_autopilot(),
                          .base_mode = static_cast<std::uint8_t>(flight.mode().base_mode | armed),
                          .custom_mode = flight.mode().custom_mode,
@@ -192,7 +192,7 @@ bool write_high_latency2(const View& view, ByteSpan payload) {
     const Vector3& velocity = flight.estimate().velocity;
     const std::uint32_t mode = flight.mode().custom_mode;
     HighLatency2 message{.timestamp = boot_ms(view),
-                         .type = view.firmware.mav_type_of(view.options.body),
+                         .type = view.firmware.mav_type_of(view.options.body.copter),
                          .autopilot = view.firmware.mav_autopilot(),
                          .custom_mode = static_cast<std::uint16_t>(view.firmware.is_px4() ? mode >> 16 : mode),
                          .heading = to_half_degrees(flight.estimate().heading),

@@ -8,7 +8,7 @@ namespace mavloom::flight::test {
 
 class Piloted {
 public:
-    explicit Piloted(Kind kind, const CopterBody& body = {})
+    explicit Piloted(Kind kind, const Body& body = {})
         : plant_(make_plant(kind, body)), pilot_(make_pilot(kind, body)) {}
 
     void step(const Setpoint& setpoint, bool armed, const Surroundings& around) {
