@@ -196,8 +196,18 @@ TEST_F(WebSocketClient, ChecksTheAnswer) {
     EXPECT_TRUE(near.eventually_has([&] { return near.session != nullptr; }));
 }
 
+// To look at an object of an exception, UBSan opens a pipe. Without descriptors, it takes the object for a bad one.
+#if defined(__has_feature)
+#if __has_feature(undefined_behavior_sanitizer)
+#define MAVLOOM_NEEDS_DESCRIPTORS
+#endif
+#endif
+
 // Asio opens descriptors of its own for the first socket or timer.
 TEST(HttpThread, WithoutFreeDescriptorsIsAnErrorAndNoException) {
+#ifdef MAVLOOM_NEEDS_DESCRIPTORS
+    GTEST_SKIP() << "the sanitizer needs descriptors";
+#endif
     const int lowest = ::dup(STDERR_FILENO);  // of the numbers that are free
     ::close(lowest);
     rlimit before{};
