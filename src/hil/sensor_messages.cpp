@@ -16,6 +16,7 @@
 #include "mavloom/msg/hil_gps.hpp"
 #include "mavloom/msg/hil_sensor.hpp"
 #include "mavloom/msg/hil_state_quaternion.hpp"
+#include "mavloom/wire/struct_frame.hpp"
 
 namespace mavloom::hil {
 
@@ -75,13 +76,7 @@ std::span<const wire::FrameView> SensorMessages::write(const SensedVehicle& vehi
 
 template <class Message>
 void SensorMessages::add(const Message& message) {
-    static constexpr wire::MessageInfo info{.id = Message::id,
-                                            .crc_extra = Message::crc_extra,
-                                            .min_length = Message::min_length,
-                                            .max_length = Message::max_length};
-    std::array<std::uint8_t, Message::max_length> payload;
-    (void)message.encode(payload);
-    frames_[used_] = wire::write_frame(buffers_[used_], {.sequence = sequence_++, .source = source_}, info, payload);
+    frames_[used_] = wire::write_frame(buffers_[used_], {.sequence = sequence_++, .source = source_}, message);
     ++used_;
 }
 

@@ -26,15 +26,12 @@ using control::text_at;
 
 using Vehicles = SetupResult<std::vector<sim::Vehicle*>>;
 
-// The vehicles that a request is for: the one with the id `system`, or all.
 Vehicles vehicles_of(Simulator& simulator, const Json& request) {
-    const auto system = number_at(request, "system");
-    if (!system) return tl::unexpected(system.error());
-    auto vehicles = simulator.vehicles();
-    if (!*system) return vehicles;
-    std::erase_if(vehicles, [&](const sim::Vehicle* vehicle) { return vehicle->system().value != **system; });
-    if (vehicles.empty()) return setup_error(SetupCode::usage, fmt::format("there is no vehicle {}", **system));
-    return vehicles;
+    return vehicles_at(request, [&](std::optional<SystemId> system) {
+        auto vehicles = simulator.vehicles();
+        if (system) std::erase_if(vehicles, [&](const sim::Vehicle* vehicle) { return vehicle->system() != *system; });
+        return vehicles;
+    });
 }
 
 // Gives the request's vehicles an order, and returns them. Of several vehicles, the error names those that refused.

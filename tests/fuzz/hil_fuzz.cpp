@@ -16,7 +16,7 @@
 #include "mavloom/msg/hil_actuator_controls.hpp"
 #include "mavloom/msg/hil_gps.hpp"
 #include "mavloom/msg/hil_sensor.hpp"
-#include "mavloom/wire/frame_writer.hpp"
+#include "mavloom/wire/struct_frame.hpp"
 
 namespace {
 
@@ -98,15 +98,9 @@ private:
     }
     template <class Message>
     void send(const Message& message) {
-        static constexpr wire::MessageInfo info{.id = Message::id,
-                                                .crc_extra = Message::crc_extra,
-                                                .min_length = Message::min_length,
-                                                .max_length = Message::max_length};
-        std::array<std::uint8_t, Message::max_length> payload;
-        (void)message.encode(payload);
         wire::FrameBuffer buffer;
         const Source source{SystemId{1}, ComponentId{1}};
-        pair_.receive(wire::write_frame(buffer, {.source = source}, info, payload), now_);
+        pair_.receive(wire::write_frame(buffer, {.source = source}, message), now_);
     }
     void restart() {
         pair_.end();

@@ -11,15 +11,11 @@
 
 #include "mavloom/base/clock.hpp"
 #include "mavloom/sim/sink.hpp"
-#include "mavloom/wire/frame_writer.hpp"
 #include "mavloom/wire/signing.hpp"
+#include "mavloom/wire/struct_frame.hpp"
 #include "sim/radio/client.hpp"
 
 namespace mavloom::sim {
-
-// The facts of a generated message struct that the frame writer needs.
-template <class Message>
-inline constexpr wire::MessageInfo info_of{Message::id, Message::crc_extra, Message::min_length, Message::max_length};
 
 class Radio {
 public:
@@ -37,13 +33,13 @@ public:
     void send(LinkId link, const Message& message, ComponentId from = autopilot_component) {
         std::array<std::uint8_t, Message::max_length> payload;
         (void)message.encode(payload);
-        transmit(link, info_of<Message>, payload, from);
+        transmit(link, wire::info_of<Message>, payload, from);
     }
     template <class Message>
     void broadcast(const Message& message, ComponentId from = autopilot_component) {
         std::array<std::uint8_t, Message::max_length> payload;
         (void)message.encode(payload);
-        for (const LinkId link : ids_) transmit(link, info_of<Message>, payload, from);
+        for (const LinkId link : ids_) transmit(link, wire::info_of<Message>, payload, from);
     }
     void transmit(LinkId link, const wire::MessageInfo& info, ByteView payload, ComponentId from = autopilot_component);
 

@@ -97,7 +97,7 @@ using Write = bool (*)(const View&, ByteSpan);
 
 template <class Message>
 constexpr Projection row(Write write, KnownBy known_by = KnownBy::both) {
-    return {info_of<Message>, Message::name, write, known_by};
+    return {wire::info_of<Message>, Message::name, write, known_by};
 }
 
 constexpr std::array projection_table{

@@ -23,14 +23,7 @@ using control::text_at;
 using Pairs = SetupResult<std::vector<hil::Pair*>>;
 
 Pairs pairs_of(HilSimulator& simulator, const Json& request) {
-    const auto system = number_at(request, "system");
-    if (!system) return tl::unexpected(system.error());
-    if (!*system) return simulator.pairs({});
-    const double id = **system;
-    if (!(id >= 1 && id <= 255)) return setup_error(SetupCode::usage, fmt::format("there is no vehicle {}", id));
-    auto pairs = simulator.pairs(SystemId{static_cast<std::uint8_t>(id)});
-    if (pairs.empty()) return setup_error(SetupCode::usage, fmt::format("there is no vehicle {}", id));
-    return pairs;
+    return vehicles_at(request, [&](std::optional<SystemId> system) { return simulator.pairs(system); });
 }
 
 // Calls `use` with each of the request's pairs, and reports the state of all.
@@ -39,8 +32,7 @@ Report for_each_pair(HilSimulator& simulator, const Json& request, Use&& use) {
     const auto pairs = pairs_of(simulator, request);
     if (!pairs) return failed(pairs.error().text);
     for (hil::Pair* const pair : *pairs) use(*pair);
-    const auto system = number_at(request, "system").value_or(std::nullopt);
-    return report_hil(simulator, system ? std::optional(SystemId{static_cast<std::uint8_t>(*system)}) : std::nullopt);
+    return report_hil(simulator, *system_at(request));
 }
 
 Report pause_flights(HilSimulator& simulator, const Json& request) {

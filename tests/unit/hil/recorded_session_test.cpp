@@ -19,6 +19,7 @@
 #include "mavloom/msg/hil_actuator_controls.hpp"
 #include "mavloom/msg/hil_sensor.hpp"
 #include "mavloom/wire/stream_parser.hpp"
+#include "mavloom/wire/struct_frame.hpp"
 
 namespace mavloom::hil {
 namespace {
@@ -48,14 +49,6 @@ std::vector<Recorded> recording(const std::string& name) {
     return records;
 }
 
-template <class Message>
-wire::MessageInfo info_of() {
-    return {.id = Message::id,
-            .crc_extra = Message::crc_extra,
-            .min_length = Message::min_length,
-            .max_length = Message::max_length};
-}
-
 std::uint64_t time_of(const Recorded& record) { return load_le<std::uint64_t>(record.frame.data() + 10); }
 std::uint32_t id_of(const Recorded& record) { return wire::FrameView::unchecked(record.frame).id().value; }
 
@@ -63,7 +56,8 @@ std::uint32_t id_of(const Recorded& record) { return wire::FrameView::unchecked(
 std::vector<Bytes> parsed(const std::vector<Recorded>& records, std::size_t chunk) {
     Bytes stream;
     for (const auto& record : records) stream.insert(stream.end(), record.frame.begin(), record.frame.end());
-    const std::array infos{info_of<msg::HilActuatorControls>(), info_of<msg::Heartbeat>(), info_of<msg::CommandLong>()};
+    const std::array infos{wire::info_of<msg::HilActuatorControls>, wire::info_of<msg::Heartbeat>,
+                           wire::info_of<msg::CommandLong>};
     const wire::MessageTable table(infos);
     wire::StreamParser parser(table);
     std::vector<Bytes> frames;

@@ -14,7 +14,7 @@
 #include "mavloom/msg/hil_gps.hpp"
 #include "mavloom/msg/hil_sensor.hpp"
 #include "mavloom/msg/hil_state_quaternion.hpp"
-#include "mavloom/wire/frame_writer.hpp"
+#include "mavloom/wire/struct_frame.hpp"
 
 namespace mavloom::hil::test {
 
@@ -43,14 +43,8 @@ protected:
     }
     template <class Message>
     Heard send(const Message& message) {
-        const wire::MessageInfo info{.id = Message::id,
-                                     .crc_extra = Message::crc_extra,
-                                     .min_length = Message::min_length,
-                                     .max_length = Message::max_length};
-        std::array<std::uint8_t, Message::max_length> payload;
-        (void)message.encode(payload);
         wire::FrameBuffer buffer;
-        return pair->receive(wire::write_frame(buffer, {.source = px4}, info, payload), now);
+        return pair->receive(wire::write_frame(buffer, {.source = px4}, message), now);
     }
     Step step() {
         now = std::max(now, pair->due());
