@@ -76,17 +76,11 @@ void Craft::step(const Outputs& outputs, bool armed) {
 void Craft::move(const Outputs& outputs, bool armed) {
     time_ += step_time;
     outputs_ = outputs;
-    if (sensors_.failures().stopped_motors != 0) stop_failed_motors();
+    stop_failed_motors(outputs_, plant_->channels(), sensors_.failures());
     plant_->step(outputs_, surroundings(), step_s);
     battery_.step(plant_->load(), step_s);
     if (!armed) battery_.rest(step_s);
     sense();
-}
-
-void Craft::stop_failed_motors() noexcept {
-    const Channels& channels = plant_->channels();
-    for (std::size_t i = 0, number = 0; i < channels.used; ++i)
-        if (channels.is_motor[i] && (sensors_.failures().stopped_motors >> number++ & 1) != 0) outputs_[i] = 0;
 }
 
 void Craft::set_failures(const Failures& failures) {

@@ -71,7 +71,6 @@ public:
 private:
     [[nodiscard]] Surroundings surroundings() const;
     void move(const Outputs& outputs, bool armed);
-    void stop_failed_motors() noexcept;
     void sense();
 
     const Kind kind_;

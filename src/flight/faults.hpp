@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The faults that the operator of a simulator has set. Private to flight and sim; single owner. They stay over a
+// The faults that the operator of a simulator has set. Private to flight, sim and hil; single owner. They stay over a
 // reboot, as broken hardware does.
 #pragma once
 

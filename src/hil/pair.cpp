@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/hil/pair.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 
 #include "hil/outputs.hpp"
 #include "hil/sensed_vehicle.hpp"
 #include "hil/sensor_messages.hpp"
+#include "mavloom/base/counted.hpp"
 #include "mavloom/msg/command_long.hpp"
 #include "mavloom/msg/enums/hil_actuator_controls_flags.hpp"
 #include "mavloom/msg/enums/mav_autopilot.hpp"
@@ -151,6 +155,27 @@ void Pair::push(const Push& push) {
 }
 void Pair::set_wind(const flight::Wind& wind) { parts_->vehicle().set_wind(wind); }
 void Pair::set_mass(double kg) { parts_->vehicle().set_mass(kg); }
+
+bool has_part(flight::FaultPart part) noexcept {
+    using enum flight::FaultPart;
+    constexpr std::array parts{gyroscope, accelerometer, compass, barometer, gps, rangefinder, airspeed, motor, all};
+    return std::ranges::find(parts, part) != parts.end();
+}
+
+SetupResult<void> Pair::fail(const flight::Fault& fault) {
+    if (!has_part(fault.part))
+        return setup_error(SetupCode::usage,
+                           fmt::format("the {} is PX4's own; with its command MAV_CMD_INJECT_FAILURE it fails there",
+                                       flight::fault_part_names[static_cast<std::size_t>(fault.part)]));
+    const auto motors = std::ranges::count(parts_->vehicle().channels().is_motor, true);
+    if (fault.part == flight::FaultPart::motor && motors == 0)
+        return setup_error(SetupCode::usage, "a rover's motor does not fail");
+    if (fault.part == flight::FaultPart::motor && fault.count != 0 && fault.numbers[0] > static_cast<double>(motors))
+        return setup_error(SetupCode::usage,
+                           fmt::format("the vehicle has {}", counted(static_cast<std::uint64_t>(motors), "motor")));
+    parts_->vehicle().fail(fault);
+    return {};
+}
 
 const LockStep& Pair::lock_step() const noexcept { return parts_->lock_step(); }
 const PairCounters& Pair::counters() const noexcept { return parts_->counters(); }

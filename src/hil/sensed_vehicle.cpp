@@ -31,6 +31,7 @@ SensedVehicle::SensedVehicle(const flight::VehicleOptions& options, const Sensor
       plant_(flight::make_plant(options.kind, options.body)),
       sensors_(options.has_noise ? std::optional(options.noise) : std::nullopt, options.seed,
                flight::magnetic_field(place_of(options.home)), timing_of(rates)),
+      further_imus_(options, rates.imus),
       wind_(options.wind, options.seed ^ wind_stream, step_s_),
       frame_(place_of(options.home)) {
     sensors_.acquire_gps(true);
@@ -48,7 +49,9 @@ void SensedVehicle::step(const flight::Outputs& outputs) {
     around_.air_density = flight::density_at(frame_.origin().altitude - truth().position.z());
     if (push_left_ <= 0) around_.push = around_.turn = Vector3::Zero();
     push_left_ -= step_s_;
-    plant_->step(outputs, around_, step_s_);
+    flight::Outputs working = outputs;
+    flight::stop_failed_motors(working, plant_->channels(), sensors_.failures());
+    plant_->step(working, around_, step_s_);
     sense();
 }
 
@@ -56,6 +59,13 @@ void SensedVehicle::step(const flight::Outputs& outputs) {
 void SensedVehicle::sense() {
     const bool at_rest = plant_->touches_ground() && truth().velocity.squaredNorm() < 1e-4 && plant_->thrust() < 0.2;
     sensors_.step(truth(), plant_->air_velocity(), at_rest, frame_.origin().altitude, air_density());
+    further_imus_.step(truth());
+}
+
+void SensedVehicle::fail(const flight::Fault& fault) {
+    faults_.set(fault);
+    sensors_.set_failures(faults_.failures());
+    sensors_.set_deceptions(faults_.deceptions());
 }
 
 void SensedVehicle::push(const Vector3& velocity, const Vector3& rates) {

@@ -5,8 +5,10 @@
 
 #include <memory>
 
+#include "flight/faults.hpp"
 #include "flight/physics/sensors.hpp"
 #include "flight/physics/wind.hpp"
+#include "hil/further_imus.hpp"
 #include "mavloom/flight/options.hpp"
 #include "mavloom/hil/sensor_rates.hpp"
 
@@ -28,9 +30,12 @@ public:
     void push(const Vector3& velocity, const Vector3& rates);
     void set_wind(const flight::Wind& wind);
     void set_mass(double kg) { plant_->set_mass(kg); }
+    // A fault on purpose. It stays until it is ended, also when the vehicle is put at its start.
+    void fail(const flight::Fault& fault);
 
     [[nodiscard]] const flight::Kinematics& truth() const noexcept { return plant_->motion(); }
     [[nodiscard]] const flight::Sensors& sensors() const noexcept { return sensors_; }
+    [[nodiscard]] const FurtherImus& further_imus() const noexcept { return further_imus_; }
     [[nodiscard]] flight::Kind kind() const noexcept { return options_.kind; }
     [[nodiscard]] const flight::Channels& channels() const noexcept { return plant_->channels(); }
     [[nodiscard]] bool touches_ground() const noexcept { return plant_->touches_ground(); }
@@ -47,6 +52,8 @@ private:
     const double step_s_;
     std::unique_ptr<flight::Plant> plant_;
     flight::Sensors sensors_;
+    FurtherImus further_imus_;
+    flight::Faults faults_;
     flight::WindField wind_;
     flight::LocalFrame frame_;
     flight::Surroundings around_;

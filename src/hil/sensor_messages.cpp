@@ -22,15 +22,17 @@ namespace mavloom::hil {
 
 using namespace std::chrono_literals;
 using flight::as_float;
+using flight::Failure;
 using flight::FlightTime;
 using flight::saturated;
 using flight::to_cm_s;
 
 namespace {
 
-constexpr std::uint32_t inertial_fields = msg::HIL_SENSOR_UPDATED_XACC | msg::HIL_SENSOR_UPDATED_YACC |
-                                          msg::HIL_SENSOR_UPDATED_ZACC | msg::HIL_SENSOR_UPDATED_XGYRO |
-                                          msg::HIL_SENSOR_UPDATED_YGYRO | msg::HIL_SENSOR_UPDATED_ZGYRO;
+constexpr std::uint32_t force_fields = msg::HIL_SENSOR_UPDATED_XACC | msg::HIL_SENSOR_UPDATED_YACC |
+                                       msg::HIL_SENSOR_UPDATED_ZACC;
+constexpr std::uint32_t rate_fields = msg::HIL_SENSOR_UPDATED_XGYRO | msg::HIL_SENSOR_UPDATED_YGYRO |
+                                      msg::HIL_SENSOR_UPDATED_ZGYRO;
 constexpr std::uint32_t magnetic_fields = msg::HIL_SENSOR_UPDATED_XMAG | msg::HIL_SENSOR_UPDATED_YMAG |
                                           msg::HIL_SENSOR_UPDATED_ZMAG;
 constexpr std::uint32_t pressure_fields = msg::HIL_SENSOR_UPDATED_ABS_PRESSURE | msg::HIL_SENSOR_UPDATED_PRESSURE_ALT |
@@ -50,6 +52,27 @@ std::uint16_t indicated_airspeed(double ahead, double air_density) noexcept {
     return saturated<std::uint16_t>(std::max(ahead, 0.0) * std::sqrt(air_density / sea_level_density) * 100);
 }
 
+std::uint32_t fields_if(bool sampled, Failure failure, std::uint32_t fields) noexcept {
+    return sampled && failure != Failure::off ? fields : 0;
+}
+
+// Of what the vehicle's own sensors sampled in the step. A sensor that is stuck still sends.
+std::uint32_t updated_fields(const flight::Sensors& sensors) noexcept {
+    const auto& [magnetometer, barometer, gps] = sensors.samples();
+    const flight::Failures& failures = sensors.failures();
+    return fields_if(true, failures.accelerometer, force_fields) | fields_if(true, failures.gyroscope, rate_fields) |
+           fields_if(magnetometer, failures.magnetometer, magnetic_fields) |
+           fields_if(barometer, failures.barometer, pressure_fields) |
+           fields_if(barometer, failures.airspeed, airspeed_fields);
+}
+
+// Along the body's z axis onto flat ground.
+double distance_to_ground(const SensedVehicle& vehicle) {
+    const double down = (vehicle.truth().attitude * Vector3::UnitZ()).z();
+    const double height = std::max(-vehicle.truth().position.z(), 0.0);
+    return down > 0.1 ? std::clamp(height / down, nearest_m, farthest_m + 1) : farthest_m + 1;
+}
+
 std::uint16_t course_of(const Vector3& velocity) noexcept {
     constexpr double slowest = 0.1;  // m/s
     if (flight::horizontal_length(velocity) < slowest) return UINT16_MAX;
@@ -67,6 +90,7 @@ SensorMessages::SensorMessages(const SensorRates& rates, WallTime utc_at_start)
 std::span<const wire::FrameView> SensorMessages::write(const SensedVehicle& vehicle, FlightTime now) {
     used_ = 0;
     add_sensors(vehicle, now);
+    add_further_imus(vehicle, now);
     add_fixes(vehicle, now);
     if (truth_.is_due(now)) add_truth(vehicle, now);
     if (distance_.is_due(now)) add_distance(vehicle, now);
@@ -83,12 +107,11 @@ void SensorMessages::add(const Message& message) {
 void SensorMessages::add_sensors(const SensedVehicle& vehicle, FlightTime now) {
     const flight::ImuSample& imu = vehicle.sensors().imu();
     const auto& samples = vehicle.sensors().samples();
-    if (samples.magnetometer) ++magnetic_samples_;
-    if (samples.barometer) ++pressure_samples_;
+    const auto& failures = vehicle.sensors().failures();
+    if (samples.magnetometer && !is_frozen(failures.magnetometer)) ++magnetic_samples_;
+    if (samples.barometer && !is_frozen(failures.barometer)) ++pressure_samples_;
     const double magnetic = dither(magnetic_samples_, magnetic_digit);
     const double pressure = dither(pressure_samples_, pressure_digit);
-    const std::uint32_t updated = inertial_fields | (samples.magnetometer ? magnetic_fields : 0) |
-                                  (samples.barometer ? pressure_fields | airspeed_fields : 0);
     add(msg::HilSensor{.time_usec = wire_time(now),
                        .xacc = as_float(imu.acceleration.x()),
                        .yacc = as_float(imu.acceleration.y()),
@@ -103,13 +126,28 @@ void SensorMessages::add_sensors(const SensedVehicle& vehicle, FlightTime now) {
                        .diff_pressure = as_float(imu.differential_hpa),
                        .pressure_alt = as_float(imu.pressure_altitude),
                        .temperature = as_float(imu.temperature_c),
-                       .fields_updated = updated});
+                       .fields_updated = updated_fields(vehicle.sensors())});
+}
+
+void SensorMessages::add_further_imus(const SensedVehicle& vehicle, FlightTime now) {
+    std::uint8_t number = 0;
+    for (const auto& [acceleration, rates] : vehicle.further_imus().samples())
+        add(msg::HilSensor{.time_usec = wire_time(now),
+                           .xacc = as_float(acceleration.x()),
+                           .yacc = as_float(acceleration.y()),
+                           .zacc = as_float(acceleration.z()),
+                           .xgyro = as_float(rates.x()),
+                           .ygyro = as_float(rates.y()),
+                           .zgyro = as_float(rates.z()),
+                           .fields_updated = force_fields | rate_fields,
+                           .id_ = ++number});
 }
 
 // PX4 stamps a fix when it arrives, so a late fix is one that is held back here.
 void SensorMessages::add_fixes(const SensedVehicle& vehicle, FlightTime now) {
     const auto& sensors = vehicle.sensors();
-    if (sensors.samples().gps && waiting_ < most_waiting) fixes_[waiting_++] = {now, sensors.gps()};
+    const bool has_fix = sensors.samples().gps && sensors.failures().gps != Failure::off;
+    if (has_fix && waiting_ < most_waiting) fixes_[waiting_++] = {now, sensors.gps()};
     if (waiting_ == 0 || fixes_[0].measured + gps_delay_ > now) return;
     add_fix(vehicle, fixes_[0]);
     std::move(fixes_.begin() + 1, fixes_.begin() + static_cast<std::ptrdiff_t>(waiting_--), fixes_.begin());
@@ -138,7 +176,7 @@ void SensorMessages::add_fix(const SensedVehicle& vehicle, const Fix& fix) {
 void SensorMessages::add_truth(const SensedVehicle& vehicle, FlightTime now) {
     const flight::Kinematics& truth = vehicle.truth();
     const flight::GeoPoint place = vehicle.geo(truth.position);
-    const Vector3 force = truth.attitude.conjugate() * (truth.acceleration - Vector3(0, 0, flight::gravity)) * 1000;
+    const Vector3 force = flight::specific_force(truth) * 1000;
     const Vector3 air = vehicle.air_velocity();
     add(msg::HilStateQuaternion{.time_usec = wire_time(now),
                                 .attitude_quaternion = {as_float(truth.attitude.w()), as_float(truth.attitude.x()),
@@ -159,15 +197,14 @@ void SensorMessages::add_truth(const SensedVehicle& vehicle, FlightTime now) {
                                 .zacc = saturated<std::int16_t>(force.z())});
 }
 
-// Looks along the body's z axis onto flat ground.
 void SensorMessages::add_distance(const SensedVehicle& vehicle, FlightTime now) {
-    const double down = (vehicle.truth().attitude * Vector3::UnitZ()).z();
-    const double height = std::max(-vehicle.truth().position.z(), 0.0);
-    const double distance = down > 0.1 ? height / down : farthest_m + 1;
+    const Failure failure = vehicle.sensors().failures().rangefinder;
+    if (failure == Failure::off) return;
+    if (failure != Failure::stuck) distance_m_ = distance_to_ground(vehicle);
     add(msg::DistanceSensor{.time_boot_ms = static_cast<std::uint32_t>(now / 1ms),
                             .min_distance = centimetres_of(nearest_m),
                             .max_distance = centimetres_of(farthest_m),
-                            .current_distance = centimetres_of(std::clamp(distance, nearest_m, farthest_m + 1)),
+                            .current_distance = centimetres_of(distance_m_),
                             .orientation = msg::MAV_SENSOR_ROTATION_PITCH_270,
                             .covariance = 1});
 }

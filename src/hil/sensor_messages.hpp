@@ -49,7 +49,7 @@ public:
     // A fix that waits for its delay is forgotten.
     void forget_fixes() noexcept { waiting_ = 0; }
 
-    // The frames of the step that ended at `now`; HIL_SENSOR comes first. They are valid until the next call.
+    // The frames of the step that ended at `now`, valid until the next call. HIL_SENSOR of the first IMU comes first.
     [[nodiscard]] std::span<const wire::FrameView> write(const SensedVehicle& vehicle, flight::FlightTime now);
 
 private:
@@ -57,11 +57,12 @@ private:
         flight::FlightTime measured{};
         flight::GpsFix gps;
     };
-    static constexpr std::size_t most_frames = 6, most_waiting = 32;
+    static constexpr std::size_t most_frames = 8, most_waiting = 32;
 
     template <class Message>
     void add(const Message& message);
     void add_sensors(const SensedVehicle& vehicle, flight::FlightTime now);
+    void add_further_imus(const SensedVehicle& vehicle, flight::FlightTime now);
     void add_fix(const SensedVehicle& vehicle, const Fix& fix);
     void add_fixes(const SensedVehicle& vehicle, flight::FlightTime now);
     void add_truth(const SensedVehicle& vehicle, flight::FlightTime now);
@@ -74,6 +75,7 @@ private:
     std::uint8_t sequence_ = 0;
     Beat truth_, distance_, heartbeat_;
     unsigned magnetic_samples_ = 0, pressure_samples_ = 0;
+    double distance_m_ = 0;                  // as last measured
     std::array<Fix, most_waiting> fixes_{};  // those that wait, the oldest first
     std::size_t waiting_ = 0;
     std::array<wire::FrameBuffer, most_frames> buffers_{};

@@ -50,6 +50,7 @@ private:
         options.vehicle.has_noise = (bits & 4) != 0;
         options.rates.distance_hz = (bits & 8) != 0 ? 100 : 0;
         options.rates.imu_hz = (bits & 16) != 0 ? 1000 : 250;
+        options.rates.imus = (bits & 32) != 0 ? 3 : 1;
         options.vehicle.kind = static_cast<flight::Kind>((bits >> 5) % 3);
         return options;
     }
@@ -115,6 +116,15 @@ private:
         if (what == 4) pair_.push({.north_m_s = byte() / 10.0, .yaw_deg_s = byte() * 4.0});
         if (what == 5) pair_.set_wind({.speed_m_s = byte() / 5.0, .gust_m_s = byte() / 20.0});
         if (what == 6) pair_.set_mass(0.5 + byte() / 10.0);
+        if (what == 7) fail();
+    }
+    void fail() {
+        const auto forms = flight::fault_forms();
+        const flight::FaultForm& form = forms[byte() % forms.size()];
+        flight::Fault fault{.part = form.part, .kind = form.kind, .count = form.most};
+        for (std::size_t i = 0; i < form.most; ++i)
+            fault.numbers.at(i) = std::round(form.lowest + (form.highest - form.lowest) * byte() / 255);
+        require(pair_.fail(fault).has_value() || !hil::has_part(form.part) || form.part == flight::FaultPart::motor);
     }
 
     const std::uint8_t* at_;

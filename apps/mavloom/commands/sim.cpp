@@ -69,8 +69,8 @@ constexpr KeyOption key_options[] = {
      "to 4561 and so on; or at another endpoint",
      "px4[=ENDPOINT]"},
     {"--hil-sensors", "sim", "hil_sensors",
-     "with --hil: samples a second, the delay of GPS in seconds, and those of a distance sensor (default: "
-     "imu:250,mag:50,baro:50,gps:10,gps_delay:0,distance:0)",
+     "with --hil: samples a second, the delay of GPS in seconds, samples of a distance sensor, and how many IMUs "
+     "(default: imu:250,mag:50,baro:50,gps:10,gps_delay:0,distance:0,imus:1)",
      "NAME:N,..."},
     {"--start-time", "sim", "start_time", "UTC at the begin of the flight, as in 2026-11-29T12:00:00Z (default: now)",
      "TIME"},

@@ -28,7 +28,8 @@ SetupResult<std::unique_ptr<HilSimulator>> make_hil_simulator(const Common& comm
     const auto endpoints = scenario.hil_endpoints();
     auto endpoint = endpoints.begin();
     for (const auto& vehicle : scenario.each_vehicle())
-        if (auto added = (*simulator)->add(vehicle.options, *endpoint++); !added)
+        if (auto added = (*simulator)->add(vehicle.options, *endpoint++, scenario.hil_faults(vehicle.options.system));
+            !added)
             return tl::unexpected(std::move(added.error()));
     return simulator;
 }

@@ -254,7 +254,7 @@ Run declare_ctl(Arguments command, const Common&) {
                        "[VALUE], fail PART FAULT, wait STATE (ready, armed, disarmed, landed, alt METRES), pause, "
                        "resume, step TIME; with "
                        "sim --hil: state, pause, resume, step TIME, reset, push N,E,D, turn ROLL,PITCH,YAW, wind "
-                       "SPEED,DIR[,GUST], mass KG");
+                       "SPEED,DIR[,GUST], mass KG, fail PART FAULT");
     command.add_option("argument", "ARGUMENT", options->arguments, "what the action takes");
     command.add_option("--system", "N", options->system, "the vehicle with this system id (default: all)");
     command.add_option("--for", "TIME", options->limit, "`wait` ends after this time, with status 1")

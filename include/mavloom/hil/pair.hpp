@@ -11,6 +11,8 @@
 #include <span>
 #include <string_view>
 
+#include "mavloom/base/result.hpp"
+#include "mavloom/flight/fault.hpp"
 #include "mavloom/flight/options.hpp"
 #include "mavloom/hil/lock_step.hpp"
 #include "mavloom/hil/sensor_rates.hpp"
@@ -53,6 +55,9 @@ struct PairStatus {
     double roll_deg = 0, pitch_deg = 0, heading_deg = 0;
 };
 
+// False for the parts that PX4 simulates itself, such as the battery.
+[[nodiscard]] bool has_part(flight::FaultPart part) noexcept;
+
 class Pair {
 public:
     explicit Pair(const PairOptions& options);
@@ -84,6 +89,9 @@ public:
     void push(const Push& push);
     void set_wind(const flight::Wind& wind);
     void set_mass(double kg);
+    // A fault on purpose. It stays over `reset` and with the next autopilot, as broken hardware does. A part that PX4
+    // simulates itself, or a motor that the vehicle does not have, is an error.
+    [[nodiscard]] SetupResult<void> fail(const flight::Fault& fault);
 
     [[nodiscard]] const LockStep& lock_step() const noexcept;
     [[nodiscard]] const PairCounters& counters() const noexcept;

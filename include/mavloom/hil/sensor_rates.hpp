@@ -14,6 +14,7 @@ struct SensorRates {
     double magnetometer_hz = 50, barometer_hz = 50, gps_hz = 10;
     double distance_hz = 0;   // of a sensor that looks down; 0: there is none
     Nanoseconds gps_delay{};  // from a sample to its message
+    unsigned imus = 1;        // up to 3; the first one sets the autopilot's clock
 
     [[nodiscard]] Nanoseconds step() const noexcept {
         return std::chrono::microseconds{static_cast<std::int64_t>(1e6 / imu_hz + 0.5)};

@@ -16,6 +16,7 @@
 #include "mavloom/config/config.hpp"
 #include "mavloom/control/served.hpp"
 #include "mavloom/hil/pair.hpp"
+#include "mavloom/hil/timed_fault.hpp"
 #include "mavloom/link/links.hpp"
 
 namespace mavloom::control {
@@ -56,8 +57,9 @@ public:
     HilSimulator& operator=(const HilSimulator&) = delete;
     ~HilSimulator() override;
 
-    // Adds a vehicle and opens the endpoint of its autopilot. A port in use is an error.
-    [[nodiscard]] SetupResult<void> add(const flight::VehicleOptions& vehicle, const endpoint::Endpoint& endpoint);
+    // Adds a vehicle and opens the endpoint of its autopilot. A port in use is an error. `faults` by their times.
+    [[nodiscard]] SetupResult<void> add(const flight::VehicleOptions& vehicle, const endpoint::Endpoint& endpoint,
+                                        std::vector<hil::TimedFault> faults = {});
 
     // Runs one turn: waits until a step is due, something arrives, or `deadline`, and handles all of it.
     void turn(MonoTime deadline);

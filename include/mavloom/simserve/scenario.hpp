@@ -18,6 +18,7 @@
 #include "mavloom/config/config.hpp"
 #include "mavloom/config/document.hpp"
 #include "mavloom/hil/sensor_rates.hpp"
+#include "mavloom/hil/timed_fault.hpp"
 #include "mavloom/sim/vehicle.hpp"
 #include "mavloom/simserve/simulator.hpp"
 
@@ -58,6 +59,8 @@ struct Scenario {
     [[nodiscard]] std::string control_name() const;
     // The endpoint of each vehicle's autopilot, in the order of `each_vehicle`: the ports follow each other.
     [[nodiscard]] std::vector<endpoint::Endpoint> hil_endpoints() const;
+    // The faults of a vehicle with `hil`, by their times.
+    [[nodiscard]] std::vector<hil::TimedFault> hil_faults(SystemId system) const;
     // See SimulatorOptions.
     [[nodiscard]] bool is_repeatable() const noexcept { return !input_recording.empty() || !input.empty(); }
 };

@@ -52,8 +52,9 @@ inline constexpr double max_speed = std::numeric_limits<double>::infinity();
 // An order to vehicles at a time of the flight.
 struct TimedOrder {
     sim::FlightTime at{};
-    std::string text;     // as the user wrote it
-    std::string request;  // as `mavloom ctl` sends it
+    std::string text;                  // as the user wrote it
+    std::string request;               // as `mavloom ctl` sends it
+    std::optional<SystemId> system{};  // empty: for all vehicles
 };
 
 struct SimulatorOptions {

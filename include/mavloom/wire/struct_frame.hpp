@@ -9,7 +9,7 @@
 
 namespace mavloom::wire {
 
-// What writers and parsers of frames need to know. Structs have no offsets of targets or clocks.
+// The entry of a message table. It has no offsets of targets and clocks, because structs do not state them.
 template <class Message>
 inline constexpr MessageInfo info_of{.id = Message::id,
                                      .crc_extra = Message::crc_extra,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What fails in a vehicle on purpose. Private to flight and sim; plain values.
+// What fails in a vehicle on purpose. Private to flight, sim and hil; plain values.
 #pragma once
 
 #include <cstdint>
@@ -41,6 +41,12 @@ struct Failures {
     first.silent_escs |= second.silent_escs;
     first.wrong_escs |= second.wrong_escs;
     return first;
+}
+
+inline void stop_failed_motors(Outputs& outputs, const Channels& channels, const Failures& failures) noexcept {
+    if (failures.stopped_motors == 0) return;
+    for (std::size_t i = 0, number = 0; i < channels.used; ++i)
+        if (channels.is_motor[i] && (failures.stopped_motors >> number++ & 1) != 0) outputs[i] = 0;
 }
 
 // Measurements that are wrong but look right.

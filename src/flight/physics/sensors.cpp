@@ -106,7 +106,7 @@ void Sensors::restart_estimate() {
 }
 
 void Sensors::step_imu(const Kinematics& truth) {
-    const Vector3 force = truth.attitude.conjugate() * (truth.acceleration - Vector3(0, 0, gravity));
+    const Vector3 force = specific_force(truth);
     const Vector3 shaking = noise(Vector3::Constant(noise_.accelerometer));
     if (!is_frozen(failures_.accelerometer)) imu_.acceleration = force + shaking;
     const Vector3 jitter = noise(Vector3::Constant(noise_.gyroscope));

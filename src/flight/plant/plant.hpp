@@ -39,6 +39,11 @@ struct Kinematics {
     Vector3 rates = Vector3::Zero();  // rad/s, body frame
 };
 
+// An accelerometer measures it: m/s^2, body frame.
+[[nodiscard]] inline Vector3 specific_force(const Kinematics& truth) {
+    return truth.attitude.conjugate() * (truth.acceleration - Vector3(0, 0, gravity));
+}
+
 // Air, ground and supply around the vehicle during one step.
 struct Surroundings {
     Vector3 wind = Vector3::Zero();  // m/s, in the direction in which the air moves

@@ -27,8 +27,9 @@ std::string short_name(std::string_view link) { return std::string(link.substr(l
 
 }  // namespace
 
-HilPort::HilPort(const hil::PairOptions& options, link::Links& links, const Notice& notice)
-    : pair_(options), links_(links), notice_(notice), is_board_(options.has_own_clock) {}
+HilPort::HilPort(const hil::PairOptions& options, std::vector<hil::TimedFault> faults, link::Links& links,
+                 const Notice& notice)
+    : pair_(options), faults_(std::move(faults)), links_(links), notice_(notice), is_board_(options.has_own_clock) {}
 
 void HilPort::opened(link::EndpointId endpoint, std::string label) {
     endpoint_ = endpoint;
@@ -113,9 +114,16 @@ void HilPort::step(MonoTime now) {
         blocked_until_ = now + blocked_pause;
         return;
     }
+    fail_due();
     for (const auto& frame : pair_.step(now)) links_.send(*link_, frame);
     if (pair_.lock_step().state() != state_) note_state();
     own_times_.add(mono_now() - now);
+}
+
+void HilPort::fail_due() {
+    for (; next_fault_ < faults_.size() && faults_[next_fault_].at <= pair_.lock_step().time(); ++next_fault_)
+        if (const auto done = pair_.fail(faults_[next_fault_].fault); !done)
+            say(LogLevel::warning, fmt::format("a fault of the time line: {}", done.error().text));
 }
 
 // ---- what users see -------------------------------------------------------------------------------------------------

@@ -20,8 +20,9 @@ class HilPort {
 public:
     using Notice = HilSimulator::Notice;
 
-    // Both must outlive the object.
-    HilPort(const hil::PairOptions& options, link::Links& links, const Notice& notice);
+    // `faults` by their times. `links` and `notice` must outlive the object.
+    HilPort(const hil::PairOptions& options, std::vector<hil::TimedFault> faults, link::Links& links,
+            const Notice& notice);
 
     // Call it first.
     void opened(link::EndpointId endpoint, std::string label);
@@ -46,6 +47,7 @@ public:
 private:
     void begin(LinkId link, std::string_view name);
     void end();
+    void fail_due();
     void note_state();
     void say(config::LogLevel level, std::string_view text);
     void refuse_newcomers();
@@ -53,6 +55,8 @@ private:
     [[nodiscard]] std::string what_it_sent() const;
 
     hil::Pair pair_;
+    const std::vector<hil::TimedFault> faults_;
+    std::size_t next_fault_ = 0;
     link::Links& links_;
     const Notice& notice_;
     const bool is_board_;

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
+#include <utility>
 
 #include "control/fault_request.hpp"
 #include "control/json_request.hpp"
@@ -11,6 +11,7 @@
 #include "mavloom/simserve/hil_simulator.hpp"
 #include "simserve/request_values.hpp"
 #include "simserve/scenario/values.hpp"
+#include "simserve/scenario/vehicle_fault.hpp"
 
 namespace mavloom::simserve {
 
@@ -90,6 +91,17 @@ Report load(HilSimulator& simulator, const Json& request) {
     return for_each_pair(simulator, request, [&](hil::Pair& pair) { pair.set_mass(*mass); });
 }
 
+// Of several vehicles, the first refusal is reported.
+Report fail_parts(HilSimulator& simulator, const Json& request) {
+    const auto fault = parse_vehicle_fault(text_at(request, "fault"));
+    if (!fault) return failed(fault.error().text);
+    SetupResult<void> done;
+    auto report = for_each_pair(simulator, request, [&](hil::Pair& pair) {
+        if (done) done = pair.fail(*fault);
+    });
+    return done ? std::move(report) : failed(done.error().text);
+}
+
 Report fault_port(HilSimulator& simulator, const Json& request) {
     return control::set_faults(simulator.links(), request,
                                [&](const std::string& text) { simulator.notify(config::LogLevel::info, text); });
@@ -123,6 +135,7 @@ constexpr std::array hil_commands{
     HilCommand{"turn", turn_vehicles},
     HilCommand{"wind", blow},
     HilCommand{"mass", load},
+    HilCommand{"fail", fail_parts},
     HilCommand{"fault", fault_port},
     HilCommand{"arm", refer_to_px4},
     HilCommand{"disarm", refer_to_px4},
@@ -130,7 +143,6 @@ constexpr std::array hil_commands{
     HilCommand{"goto", refer_to_px4},
     HilCommand{"mode", refer_to_px4},
     HilCommand{"param", refer_to_px4},
-    HilCommand{"fail", refer_to_px4},
     HilCommand{"streams", refer_to_px4},
 };
 

@@ -36,7 +36,8 @@ SetupResult<std::unique_ptr<HilSimulator>> HilSimulator::create(const dialect::D
     return std::unique_ptr<HilSimulator>(new HilSimulator(options, std::move(notice), std::move(*links)));
 }
 
-SetupResult<void> HilSimulator::add(const flight::VehicleOptions& vehicle, const endpoint::Endpoint& endpoint) {
+SetupResult<void> HilSimulator::add(const flight::VehicleOptions& vehicle, const endpoint::Endpoint& endpoint,
+                                    std::vector<hil::TimedFault> faults) {
     endpoint::Endpoint given = endpoint;
     given.options.low_latency = true;
     const bool is_board = given.row().form == endpoint::Form::device;
@@ -45,7 +46,7 @@ SetupResult<void> HilSimulator::add(const flight::VehicleOptions& vehicle, const
                                                            .speed = options_.speed,
                                                            .has_own_clock = is_board,
                                                            .utc_at_start = options_.utc_at_start},
-                                          *links_, notice_);
+                                          std::move(faults), *links_, notice_);
     const auto added = fault::add(*links_, given);
     if (!added) return tl::unexpected(added.error());
     const auto opened = links_->endpoints();

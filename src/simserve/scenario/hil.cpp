@@ -10,9 +10,12 @@
 #include "mavloom/base/shown.hpp"
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/endpoint/checks.hpp"
+#include "mavloom/hil/pair.hpp"
 #include "mavloom/simserve/scenario.hpp"
 #include "simserve/scenario/keys.hpp"
+#include "simserve/scenario/time_line.hpp"
 #include "simserve/scenario/values.hpp"
+#include "simserve/scenario/vehicle_fault.hpp"
 
 namespace mavloom::simserve {
 
@@ -70,6 +73,7 @@ constexpr std::array rate_keys{
                 r.gps_delay = std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(v));
             }},
     RateKey{"distance", {0, 250}, [](hil::SensorRates& r, double v) { r.distance_hz = v; }},
+    RateKey{"imus", {1, 3}, [](hil::SensorRates& r, double v) { r.imus = static_cast<unsigned>(v); }},
 };
 
 SetupResult<void> check_rates(const hil::SensorRates& rates) {
@@ -99,6 +103,8 @@ SetupResult<hil::SensorRates> parse_hil_sensors(std::string_view text) {
         const RateKey& key = rate_keys[*index];
         if (!(value >= key.range.least && value <= key.range.most))
             return hil_error(fmt::format("{}: {} is not from {} to {}", name, value, key.range.least, key.range.most));
+        if (key.name == "imus" && value != std::floor(value))
+            return hil_error(fmt::format("imus: {} is not a whole number", value));
         key.set(rates, value);
     }
     if (auto good = check_rates(rates); !good) return tl::unexpected(std::move(good.error()));
@@ -173,6 +179,8 @@ SetupResult<void> check_imu_rate(const Px4Variables& variables, const hil::Senso
 SetupResult<void> check_board(const Scenario& scenario, std::size_t vehicles) {
     if (scenario.hil->row().form != endpoint::Form::device) return {};
     const auto label = scenario.hil->label();
+    if (scenario.hil_rates.imus > 1)
+        return hil_error(fmt::format("{}: a flight controller takes one IMU, so hil_sensors has imus:1", label));
     if (scenario.speed != 1)
         return hil_error(fmt::format("{}: a flight controller flies in real time, so speed is 1", label));
     if (vehicles > 1)
@@ -229,13 +237,24 @@ SetupResult<void> check_settings(const Scenario& scenario, const config::Documen
     return {};
 }
 
+// With PX4, the time line has faults only.
+SetupResult<void> check_event(const config::Section& event, const config::Document& document) {
+    const auto& order = *std::ranges::find(event.settings, "do", &config::Setting::key);
+    const auto fault = fault_of_order(order.value);
+    if (!fault) return wrong_setting(document, order, fmt::format("with hil, only fail PART FAULT: {}", flies_all));
+    const auto part = parse_vehicle_fault(*fault)->part;
+    if (hil::has_part(part)) return {};
+    return wrong_setting(document, order,
+                         fmt::format("not with hil: {}", part == sim::FaultPart::autopilot ? flies_all : it_has));
+}
+
 SetupResult<void> check_sections(const Scenario& scenario, const config::Document& document) {
     for (const config::Section& section : scenario.sections) {
-        const bool is_for_own_pilots = section.name == streams_section || section.name == endpoint_section ||
-                                       section.name == event_section;
+        if (section.name == event_section)
+            if (auto good = check_event(section, document); !good) return good;
+        const bool is_for_own_pilots = section.name == streams_section || section.name == endpoint_section;
         if (is_for_own_pilots && section.line != 0)
-            return document.error(section.line, fmt::format("no [{}] with hil: {}", section.name,
-                                                            section.name == event_section ? flies_all : it_sends));
+            return document.error(section.line, fmt::format("no [{}] with hil: {}", section.name, it_sends));
     }
     if (scenario.endpoints.empty()) return {};
     return hil_error(fmt::format("{}: not with hil: {}", scenario.endpoints.front().endpoint.label(), it_sends));
@@ -267,6 +286,15 @@ SetupResult<void> complete_hil(Scenario& scenario, const config::Document& docum
     for (const ScenarioVehicle& group : scenario.vehicles) vehicles += group.count;
     if (auto good = check_board(scenario, vehicles); !good) return good;
     return check_ports(scenario, vehicles);
+}
+
+std::vector<hil::TimedFault> Scenario::hil_faults(SystemId system) const {
+    std::vector<hil::TimedFault> faults;
+    for (const TimedOrder& order : orders)
+        if (!order.system || *order.system == system)
+            faults.push_back({order.at, *parse_vehicle_fault(*fault_of_order(order.text))});
+    std::ranges::stable_sort(faults, {}, &hil::TimedFault::at);
+    return faults;
 }
 
 std::vector<Endpoint> Scenario::hil_endpoints() const {

@@ -109,7 +109,7 @@ constexpr std::array<Key<Scenario>, 15> all_sim_keys{{
     {"ring_capacity", "8MiB", set_capacity},
     {"metrics", "", set_metrics},
     {"hil", "", [](Scenario& s, Text t) { return put(parse_hil(t), s.hil); }},
-    {"hil_sensors", "imu:250,mag:50,baro:50,gps:10,gps_delay:0,distance:0",
+    {"hil_sensors", "imu:250,mag:50,baro:50,gps:10,gps_delay:0,distance:0,imus:1",
      [](Scenario& s, Text t) { return put(parse_hil_sensors(t), s.hil_rates); }},
 }};
 

@@ -247,12 +247,13 @@ private:
                                                                key));
         if (event.system && !has_system(*event.system))
             return document_.error(table.line, fmt::format("there is no vehicle {}", event.system->value));
-        if (scenario_.speed == max_speed && scenario_.duration && event.at > *scenario_.duration)
+        const bool counts_flight = scenario_.speed == max_speed && !scenario_.hil;
+        if (counts_flight && scenario_.duration && event.at > *scenario_.duration)
             return document_.error(table.line, "the flight ends before this event");
         auto request = request_of_order(event.words, event.system);
         if (!request) return document_.error(table.line, request.error().text);
         section.label = find(section, "at").value;
-        scenario_.orders.push_back({event.at, std::move(event.words), std::move(*request)});
+        scenario_.orders.push_back({event.at, std::move(event.words), std::move(*request), event.system});
         scenario_.sections.push_back(std::move(section));
         return {};
     }

@@ -76,10 +76,15 @@ SetupResult<std::string> request_of_fault(std::string_view fault, std::optional<
 
 }  // namespace
 
+std::optional<std::string> fault_of_order(std::string_view text) {
+    const auto words = words_of(text);
+    if (words.empty() || words.front() != fail_order) return std::nullopt;
+    return fmt::format("{}", fmt::join(words.begin() + 1, words.end(), " "));
+}
+
 SetupResult<std::string> request_of_order(std::string_view text, std::optional<SystemId> system) {
+    if (const auto fault = fault_of_order(text)) return request_of_fault(*fault, system);
     const auto words = words_of_order(text);
-    if (!words.empty() && words.front() == fail_order)
-        return request_of_fault(fmt::format("{}", fmt::join(words.begin() + 1, words.end(), " ")), system);
     const auto form = form_of(words.empty() ? std::string_view() : words.front());
     if (!form) return tl::unexpected(form.error());
     const auto& its = **form;

@@ -18,6 +18,9 @@ namespace mavloom::simserve {
 // a wrong argument is an error (`usage`).
 [[nodiscard]] SetupResult<std::string> request_of_order(std::string_view words, std::optional<SystemId> system);
 
+// PART FAULT of the order "fail PART FAULT"; empty for other orders.
+[[nodiscard]] std::optional<std::string> fault_of_order(std::string_view words);
+
 // Why a request was refused; empty if it was executed. Formats the report.
 [[nodiscard]] std::string error_of(const control::Report& report);
 

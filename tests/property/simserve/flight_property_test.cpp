@@ -66,9 +66,7 @@ T one_of(std::initializer_list<T> values) {
     return *rc::gen::elementOf(std::vector<T>(values));
 }
 
-Nanoseconds time_until(Nanoseconds end) {
-    return Nanoseconds{*rc::gen::inRange<std::int64_t>(1, end.count())};
-}
+Nanoseconds time_until(Nanoseconds end) { return Nanoseconds{*rc::gen::inRange<std::int64_t>(1, end.count())}; }
 
 sim::VehicleOptions any_vehicle(std::size_t number) {
     sim::VehicleOptions options;
@@ -83,13 +81,13 @@ sim::VehicleOptions any_vehicle(std::size_t number) {
 }
 
 Event any_event(Nanoseconds length, std::size_t vehicles) {
-    return {time_until(length),
-            one_of<const char*>({"arm", "disarm", "takeoff 5", "land", "goto 47.3978 8.5457 10", "fail gps off",
-                                 "fail gps drift 3 0", "fail gps jump 20 0", "fail compass turn 90",
-                                 "fail barometer stuck", "fail battery charge 0", "fail motor off 1",
-                                 "fail heartbeat off", "fail radio off", "fail all ok", "fail sequence restart",
-                                 "fail autopilot restart"}),
-            SystemId{static_cast<std::uint8_t>(*rc::gen::inRange<std::size_t>(1, vehicles + 1))}};
+    return {
+        time_until(length),
+        one_of<const char*>({"arm", "disarm", "takeoff 5", "land", "goto 47.3978 8.5457 10", "fail gps off",
+                             "fail gps drift 3 0", "fail gps jump 20 0", "fail compass turn 90", "fail barometer stuck",
+                             "fail battery charge 0", "fail motor off 1", "fail heartbeat off", "fail radio off",
+                             "fail all ok", "fail sequence restart", "fail autopilot restart"}),
+        SystemId{static_cast<std::uint8_t>(*rc::gen::inRange<std::size_t>(1, vehicles + 1))}};
 }
 
 std::string any_faults() {
@@ -151,8 +149,7 @@ private:
     void read() {
         const int peer = ::accept(listener_, nullptr, nullptr);
         std::array<std::uint8_t, 65536> some;
-        for (auto size = ::read(peer, some.data(), some.size()); size > 0;
-             size = ::read(peer, some.data(), some.size()))
+        for (auto size = ::read(peer, some.data(), some.size()); size > 0; size = ::read(peer, some.data(), some.size()))
             received_.insert(received_.end(), some.begin(), some.begin() + size);
         ::close(peer);
     }
@@ -165,7 +162,7 @@ private:
 
 struct Flown {
     Bytes recorded, received;
-    std::string looked, ended;                 // the states of the vehicles
+    std::string looked, ended;  // the states of the vehicles
     std::uint64_t lost = 0, duplicated = 0, gaps = 0;
 };
 

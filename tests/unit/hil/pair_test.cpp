@@ -21,13 +21,14 @@ namespace mavloom::hil {
 namespace {
 
 using namespace std::chrono_literals;
+using test::inertial;
+using test::magnetic;
+using test::pressure;
 using test::Step;
 using ::testing::Each;
 using ::testing::Ge;
 using ::testing::SizeIs;
 
-// PX4 ignores a group of fields without all of its bits.
-constexpr std::uint32_t inertial = 0x3f, magnetic = 0x1c0, pressure = 0x1a00;
 using PairTest = test::PairRig;
 
 TEST_F(PairTest, EachGroupOfSensorsHasItsOwnRateAndAllBits) {

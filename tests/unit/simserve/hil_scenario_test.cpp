@@ -85,6 +85,8 @@ TEST(HilScenario, RefusesAutopilotsEndpointsAndRatesThatCannotBe) {
     EXPECT_THAT(error_in("[sim]\nhil = \"px4\"\nhil_sensors = \"imu:300\"\n"), HasSubstr("whole microseconds"));
     EXPECT_THAT(error_in("[sim]\nhil = \"px4\"\nhil_sensors = \"imu:100,mag:200\"\n"), HasSubstr("imu:100"));
     EXPECT_THAT(error_in("[sim]\nhil = \"px4\"\nhil_sensors = \"magnet:50\"\n"), HasSubstr("mag"));
+    EXPECT_THAT(error_in("[sim]\nhil = \"px4\"\nhil_sensors = \"imus:4\"\n"), HasSubstr("imus: 4 is not from 1 to 3"));
+    EXPECT_THAT(error_in("[sim]\nhil = \"px4\"\nhil_sensors = \"imus:2.5\"\n"), HasSubstr("not a whole number"));
     EXPECT_THAT(error_in("[sim]\nhil_sensors = \"imu:100\"\n"), HasSubstr("it is for hil"));
 }
 
@@ -96,6 +98,22 @@ TEST(HilScenario, AFlightControllerFliesOneVehicleInRealTime) {
     EXPECT_THAT(error_in(board, {}, {{"--vehicles", "vehicle", "count", "2"}}), HasSubstr("one vehicle, not 2"));
 }
 
+TEST(HilScenario, EachVehicleHasItsFaultsByTheirTimes) {
+    const auto scenario = scenario_of(
+        "[sim]\nhil = \"px4\"\nspeed = \"max\"\nfor = \"1s\"\n[[vehicle]]\ncount = 2\n"
+        "[[event]]\nat = \"9s\"\ndo = \"fail gps off\"\n"
+        "[[event]]\nat = \"5s\"\ndo = \"fail motor off 2\"\nsystem = 2\n");
+    ASSERT_TRUE(scenario) << scenario.error().text;
+    ASSERT_EQ(scenario->hil_faults(SystemId{1}).size(), 1u);
+    EXPECT_EQ(scenario->hil_faults(SystemId{1})[0].at, std::chrono::seconds{9});
+    const auto second = scenario->hil_faults(SystemId{2});
+    ASSERT_EQ(second.size(), 2u);
+    EXPECT_EQ(second[0].at, std::chrono::seconds{5});
+    EXPECT_EQ(second[0].fault.part, flight::FaultPart::motor);
+    EXPECT_EQ(second[0].fault.numbers[0], 2);
+    EXPECT_EQ(second[1].fault.part, flight::FaultPart::gps);
+}
+
 TEST(HilScenario, RefusesWhatPx4DoesItselfAtItsPlace) {
     const auto refused = [](std::string_view more) {
         return error_in(std::string("[sim]\nhil = \"px4\"\n") + std::string(more));
@@ -105,7 +123,10 @@ TEST(HilScenario, RefusesWhatPx4DoesItselfAtItsPlace) {
     EXPECT_THAT(refused("[[vehicle]]\nautopilot = \"ardupilot\"\n"), StartsWith("x.toml:4: autopilot: not with hil"));
     EXPECT_EQ(refused("[[vehicle]]\nautopilot = \"px4\"\nbody = \"iris\"\nnoise = false\n"), "no error");
     EXPECT_THAT(refused("[[vehicle]]\ntraffic = 3\n"), StartsWith("x.toml:4: traffic: not with hil"));
-    EXPECT_THAT(refused("[[event]]\nat = \"5s\"\ndo = \"arm\"\n"), StartsWith("x.toml:3: no [event] with hil"));
+    EXPECT_THAT(refused("[[event]]\nat = \"5s\"\ndo = \"arm\"\n"),
+                StartsWith("x.toml:5: do: with hil, only fail PART FAULT: PX4 flies"));
+    EXPECT_THAT(refused("[[event]]\nat = \"5s\"\ndo = \"fail battery off\"\n"),
+                StartsWith("x.toml:5: do: not with hil: PX4 has its own"));
     EXPECT_THAT(refused("[[endpoint]]\nurl = \"udpout://127.0.0.1:9\"\n"), StartsWith("x.toml:3: no [endpoint]"));
     EXPECT_THAT(error_in("[sim]\nhil = \"px4\"\n", {}, {{"--traffic", "vehicle", "traffic", "2"}}),
                 StartsWith("--traffic: not with hil"));

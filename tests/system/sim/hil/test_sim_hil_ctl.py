@@ -69,6 +69,28 @@ def test_a_heavier_vehicle_sinks_and_its_pilot_brings_it_back(holding):
     harness.wait_for(lambda: simulator.hil()["relative_alt_m"] > 2.8, what="its pilot to lift it again")
 
 
+def test_a_motor_fails_and_the_vehicle_falls(holding, run):
+    simulator, _ = holding
+    done = run("ctl", simulator.name, "fail", "motor", "off", "7")
+    assert done.status == 1 and "the vehicle has 4 motors" in done.stderr
+    done = run("ctl", simulator.name, "fail", "battery", "off")
+    assert done.status == 1 and "the battery is PX4's own" in done.stderr
+    simulator.ctl("pause")
+    simulator.ctl("fail", "motor", "off", "1")
+    assert moved_by(simulator, 0.4)["roll_deg"] > 10, "its first motor is on the right"
+    simulator.ctl("resume")
+    harness.wait_for(lambda: simulator.hil()["landed_state"] == "on_ground", what="the vehicle to lie on the ground")
+
+
+def test_the_time_line_has_faults(hil, stand_in, tmp_path):
+    (tmp_path / "faults.toml").write_text('[[event]]\nat = "4s"\ndo = "fail gps jump 30 40"\n'
+                                          '[[event]]\nat = "5s"\ndo = "fail gps ok"\n')
+    simulator = hil(tmp_path / "faults.toml", "--speed", "max", "--hil-sensors", "imus:3")
+    report = stand_in(simulator.hil_port, arm_at=2.0, height=3.0, hold=2.0).said("report")
+    assert 45 < report["worst"]["gps_m"] < 55, "a position that is 50 m away"
+    assert simulator.hil()["unanswered"] == 0
+
+
 def test_waits_for_the_height_and_for_the_landing(hil, stand_in):
     simulator = hil("--speed", "2")
     stand_in(simulator.hil_port, arm_at=2.0, height=2.0, hold=6.0, stay=True)

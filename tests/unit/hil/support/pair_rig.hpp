@@ -19,6 +19,8 @@
 namespace mavloom::hil::test {
 
 inline constexpr Source px4{SystemId{7}, ComponentId{1}};
+// PX4 ignores a group of fields without all of its bits.
+inline constexpr std::uint32_t inertial = 0x3f, magnetic = 0x1c0, pressure = 0x1a00;
 
 // The messages of one step.
 struct Step {
@@ -26,9 +28,15 @@ struct Step {
     std::vector<Source> sources;
     std::vector<std::uint8_t> sequence;
     msg::HilSensor sensor{};
+    std::vector<msg::HilSensor> further{};  // of other IMUs
     std::optional<msg::HilGps> gps{};
     std::optional<msg::HilStateQuaternion> truth{};
     std::optional<msg::DistanceSensor> distance{};
+
+    void note(const msg::HilSensor& imu) {
+        if (imu.id_ == 0) sensor = imu;
+        else further.push_back(imu);
+    }
 };
 
 class PairRig : public ::testing::Test {
@@ -53,7 +61,7 @@ protected:
             step.ids.push_back(frame.id().value);
             step.sources.push_back(frame.source());
             step.sequence.push_back(frame.sequence());
-            if (frame.id() == msg::HilSensor::id) step.sensor = msg::HilSensor::decode(frame.payload());
+            if (frame.id() == msg::HilSensor::id) step.note(msg::HilSensor::decode(frame.payload()));
             if (frame.id() == msg::HilGps::id) step.gps = msg::HilGps::decode(frame.payload());
             if (frame.id() == msg::HilStateQuaternion::id)
                 step.truth = msg::HilStateQuaternion::decode(frame.payload());
