@@ -48,6 +48,8 @@ set(CPACK_DEBIAN_MAVLOOM_PYTHON_DEBIAN_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_MAVLOOM_PYTHON_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_MAVLOOM_PYTHON_DEBIAN_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
 set(CPACK_DEBIAN_MAVLOOM_PYTHON_DEBIAN_PACKAGE_SUGGESTS "python3-pandas, python3-serial")
+set(CPACK_DEBIAN_MAVLOOM_PYTHON_DEBIAN_PACKAGE_CONTROL_EXTRA "${control_folder}/python3/postinst"
+    "${control_folder}/python3/prerm")
 set(CPACK_COMPONENT_MAVLOOM_PYTHON_DEBIAN_DESCRIPTION "MAVLink telemetry at C++ speed: Python package
  Links, recordings, shared-memory rings and columns of telemetry in Python, and
  mavloom.mavutil, which scripts for pymavlink's mavutil can import instead.")

@@ -71,9 +71,8 @@ Command command_of(const Client& from, const msg::SetMode& m, bool is_px4) {
 
 }  // namespace
 
-double altitude_of(const Command& command, const Parts& parts) {
+double altitude_of(const Command& command, const Flight& flight) {
     using namespace msg;
-    const Flight& flight = parts.flight;
     switch (command.frame) {
         case MAV_FRAME_GLOBAL_RELATIVE_ALT:
         case MAV_FRAME_GLOBAL_RELATIVE_ALT_INT:

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "flight/firmware/known_by.hpp"
+#include "flight/flight.hpp"
 #include "flight/orders.hpp"
 #include "flight/plan.hpp"
 #include "sim/radio/client.hpp"
@@ -46,7 +47,7 @@ struct Command {
 };
 
 // The altitude that `z` stands for in the command's frame, above mean sea level. `nan` stays `nan`.
-[[nodiscard]] double altitude_of(const Command& command, const Parts& parts);
+[[nodiscard]] double altitude_of(const Command& command, const Flight& flight);
 
 struct CommandRow {
     std::uint16_t id;

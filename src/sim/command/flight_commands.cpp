@@ -88,7 +88,7 @@ double takeoff_altitude(const Parts& parts, const Command& command) {
     const double home = parts.flight.home_altitude();
     if (std::isnan(command.z) || command.z == 0) return nan;
     if (!parts.firmware.is_px4() && !command.is_int) return home + command.z;
-    const double altitude = altitude_of(command, parts);
+    const double altitude = altitude_of(command, parts.flight);
     return altitude < home && command.z > 0 ? home + command.z : altitude;
 }
 
@@ -154,7 +154,7 @@ Outcome change_altitude(Parts& parts, const Command& command, Moment /*now*/) {
     with_altitude.frame = static_cast<std::uint8_t>(*frame);
     with_altitude.z = double{command.param(1)};
     if (!is_global_frame(with_altitude.frame)) return Result::denied;
-    return parts.flight.change_altitude(altitude_of(with_altitude, parts));
+    return parts.flight.change_altitude(altitude_of(with_altitude, parts.flight));
 }
 
 // A speed that is not positive means the usual one.
@@ -181,7 +181,8 @@ Outcome turn(Parts& parts, const Command& command, Moment /*now*/) {
 
 Outcome guided_altitude(Parts& parts, const Command& command, Moment /*now*/) {
     if (!command.is_int) return Result::command_int_only;
-    return std::isnan(command.z) ? Outcome(Result::denied) : parts.flight.change_altitude(altitude_of(command, parts));
+    return std::isnan(command.z) ? Outcome(Result::denied)
+                                 : parts.flight.change_altitude(altitude_of(command, parts.flight));
 }
 
 // The first parameter is HEADING_TYPE: 0 course over ground, 1 heading, 2 back to the usual.
@@ -232,7 +233,7 @@ Outcome start_landing(Parts& parts, const Command& /*command*/, Moment /*now*/) 
 std::optional<GeoPoint> whole_point(const Command& command, const Parts& parts) {
     const CommandPosition position = position_of(command, parts);
     if (std::isnan(position.latitude) || std::isnan(position.longitude) || std::isnan(command.z)) return std::nullopt;
-    return GeoPoint{position.latitude, position.longitude, altitude_of(command, parts)};
+    return GeoPoint{position.latitude, position.longitude, altitude_of(command, parts.flight)};
 }
 
 Outcome set_home(Parts& parts, const Command& command, Moment /*now*/) {

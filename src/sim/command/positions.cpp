@@ -11,7 +11,7 @@ CommandPosition position_of(const Command& command, const Parts& parts) {
     const bool is_filler = command.x == 0 && command.y == 0;
     return {.latitude = is_filler ? nan : command.x,
             .longitude = is_filler ? nan : command.y,
-            .altitude = altitude_of(command, parts)};
+            .altitude = altitude_of(command, parts.flight)};
 }
 
 bool is_global_frame(std::uint8_t frame) noexcept {

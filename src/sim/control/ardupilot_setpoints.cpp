@@ -8,7 +8,6 @@
 #include "mavloom/msg/enums/mav_frame.hpp"
 #include "sim/command/positions.hpp"
 #include "sim/control/setpoint_fields.hpp"
-#include "sim/parts.hpp"
 
 namespace mavloom::sim {
 
@@ -42,26 +41,26 @@ Vector3 ahead(double heading, double speed) noexcept {
 
 }  // namespace
 
-bool ArdupilotSetpoints::is_guided() const noexcept { return parts_.flight.mode().behaviour == Behaviour::offboard; }
+bool ArdupilotSetpoints::is_guided() const noexcept { return flight_.mode().behaviour == Behaviour::offboard; }
 
 void ArdupilotSetpoints::on_local_target(ByteView payload) {
     const auto m = SetPositionTargetLocalNed::decode(payload);
     if (!is_guided()) return;
-    if (parts_.options.kind == Kind::plane) return climb_by(m);
+    if (kind_ == Kind::plane) return climb_by(m);
     obey(target_of(m));
 }
 
 void ArdupilotSetpoints::on_global_target(ByteView payload) {
     const auto m = SetPositionTargetGlobalInt::decode(payload);
     if (!is_guided()) return;
-    if (parts_.options.kind == Kind::plane) return climb_to(m);
+    if (kind_ == Kind::plane) return climb_to(m);
     Target target{.mask = m.type_mask,
                   .has_known_frame = is_global_frame(m.coordinate_frame),
                   .needs_frame = has(m.type_mask, no_x | no_y | no_z),
                   .is_above_terrain = is_terrain_frame(m.coordinate_frame),
                   .is_backwards = m.vx < 0,
                   .setpoint = all_of(m)};
-    target.setpoint.position = local_position_of(m, parts_);
+    target.setpoint.position = local_position_of(m, flight_);
     obey(target);
 }
 
@@ -74,7 +73,7 @@ ArdupilotSetpoints::Target ArdupilotSetpoints::target_of(const SetPositionTarget
                   .setpoint = all_of(m)};
     OffboardSetpoint& setpoint = target.setpoint;
     setpoint.position = {double{m.x}, double{m.y}, double{m.z}};
-    const Estimate& estimate = parts_.flight.estimate();
+    const Estimate& estimate = flight_.estimate();
     if (is_body_frame(m.coordinate_frame)) {
         for (Vector3* const vector : {&setpoint.position, &setpoint.velocity, &setpoint.acceleration})
             *vector = turned(*vector, estimate.euler.yaw);
@@ -84,9 +83,7 @@ ArdupilotSetpoints::Target ArdupilotSetpoints::target_of(const SetPositionTarget
     return target;
 }
 
-void ArdupilotSetpoints::obey(const Target& target) {
-    parts_.options.kind == Kind::rover ? drive(target) : fly(target);
-}
+void ArdupilotSetpoints::obey(const Target& target) { kind_ == Kind::rover ? drive(target) : fly(target); }
 
 // --- Copters
 
@@ -110,7 +107,7 @@ void ArdupilotSetpoints::fly(const Target& target) {
     if (has_position) setpoint.position = given.position;
     if (has_velocity) setpoint.velocity = given.velocity;
     if (has_acceleration) setpoint.acceleration = given.acceleration;
-    parts_.flight.on_offboard(setpoint);
+    flight_.on_offboard(setpoint);
 }
 
 // --- Rovers
@@ -119,7 +116,7 @@ void ArdupilotSetpoints::drive(const Target& target) {
     if (!target.has_known_frame) return;
     if (!has(target.mask, no_x | no_y)) return steer_rover(target);
     Vector3 place = target.setpoint.position;
-    place.z() = parts_.flight.estimate().position.z();
+    place.z() = flight_.estimate().position.z();
     if (is_place(place)) go_to(place, nan);
 }
 
@@ -131,28 +128,28 @@ void ArdupilotSetpoints::steer_rover(const Target& target) {
                has_rate = has(target.mask, no_yaw_rate), turns = has_yaw || has_rate;
     if (has(target.mask, no_acceleration) || (has_yaw && has_rate) || (!has_velocity && !turns)) return;
     const double length = has_velocity ? std::hypot(given.velocity.x(), given.velocity.y()) : 0;
-    const double heading = has_yaw ? given.yaw : parts_.flight.estimate().euler.yaw;
+    const double heading = has_yaw ? given.yaw : flight_.estimate().euler.yaw;
     OffboardSetpoint setpoint{.yaw = has_yaw ? given.yaw : nan, .yaw_rate = has_rate ? given.yaw_rate : nan};
     setpoint.velocity = turns ? ahead(heading, target.is_backwards ? -length : length) : given.velocity;
-    parts_.flight.on_offboard(setpoint);
+    flight_.on_offboard(setpoint);
 }
 
 // --- Planes
 
 // Of the frames, a plane knows this one only, and of the message only `z`, for any mask.
 void ArdupilotSetpoints::climb_by(const SetPositionTargetLocalNed& m) {
-    const auto& goal = parts_.flight.target();
+    const auto& goal = flight_.target();
     if (m.coordinate_frame != MAV_FRAME_LOCAL_OFFSET_NED || !goal || !std::isfinite(m.z)) return;
-    const double altitude = parts_.flight.frame().origin().altitude - goal->position.z() - double{m.z};
-    (void)parts_.flight.change_altitude(altitude);
-    parts_.on_text(Severity::info, fmt::format("Change alt to {:.1f}", altitude - parts_.flight.home_altitude()));
+    const double altitude = flight_.frame().origin().altitude - goal->position.z() - double{m.z};
+    (void)flight_.change_altitude(altitude);
+    observer_.on_text(Severity::info, fmt::format("Change alt to {:.1f}", altitude - flight_.home_altitude()));
 }
 
 void ArdupilotSetpoints::climb_to(const SetPositionTargetGlobalInt& m) {
     if (!is_global_frame(m.coordinate_frame))
-        return parts_.on_text(Severity::warning, "Invalid coord frame in SET_POSTION_TARGET_GLOBAL_INT");
+        return observer_.on_text(Severity::warning, "Invalid coord frame in SET_POSTION_TARGET_GLOBAL_INT");
     if (!has(m.type_mask, no_z)) return;
-    (void)parts_.flight.change_altitude(parts_.flight.frame().origin().altitude - local_position_of(m, parts_).z());
+    (void)flight_.change_altitude(flight_.frame().origin().altitude - local_position_of(m, flight_).z());
 }
 
 // --- Attitudes
@@ -161,29 +158,28 @@ void ArdupilotSetpoints::climb_to(const SetPositionTargetGlobalInt& m) {
 void ArdupilotSetpoints::on_attitude_target(ByteView payload) {
     if (!is_guided()) return;
     OffboardSetpoint setpoint = attitude_of(SetAttitudeTarget::decode(payload));
-    const bool has_rates = is_whole(setpoint.rates), is_copter = parts_.options.kind == Kind::quad;
+    const bool has_rates = is_whole(setpoint.rates), is_copter = kind_ == Kind::quad;
     const bool is_unit = std::abs(setpoint.attitude.squaredNorm() - 1) < 1e-3;
     const bool is_valid = std::isfinite(setpoint.thrust) && is_unit && (has_rates || !has_any(setpoint.rates));
     if (is_copter && !is_valid) return stop();
     if (!std::isfinite(setpoint.thrust)) return;
     if (is_copter && !has_rates) setpoint.rates.setZero();
-    if (parts_.options.kind == Kind::rover)
-        setpoint.steering = std::isnan(setpoint.rates.z()) ? Steering::attitude : Steering::rates;
-    parts_.flight.on_offboard(setpoint);
+    if (kind_ == Kind::rover) setpoint.steering = std::isnan(setpoint.rates.z()) ? Steering::attitude : Steering::rates;
+    flight_.on_offboard(setpoint);
 }
 
 // --- What the vehicle does
 
 void ArdupilotSetpoints::go_to(const Vector3& place, double yaw) {
-    const GeoPoint goal = parts_.flight.frame().to_geo(place);
-    (void)parts_.flight.reposition({.latitude = goal.latitude,
-                                    .longitude = goal.longitude,
-                                    .altitude = goal.altitude,
-                                    .yaw = yaw,
-                                    .may_change_mode = false});
+    const GeoPoint goal = flight_.frame().to_geo(place);
+    (void)flight_.reposition({.latitude = goal.latitude,
+                              .longitude = goal.longitude,
+                              .altitude = goal.altitude,
+                              .yaw = yaw,
+                              .may_change_mode = false});
 }
 
 // An order to go nowhere stops the vehicle where it is.
-void ArdupilotSetpoints::stop() { (void)parts_.flight.reposition({.may_change_mode = false}); }
+void ArdupilotSetpoints::stop() { (void)flight_.reposition({.may_change_mode = false}); }
 
 }  // namespace mavloom::sim

@@ -7,6 +7,7 @@
 // ignores it. Of all set-points, a plane takes altitudes only, and attitudes.
 #pragma once
 
+#include "flight/flight.hpp"
 #include "flight/orders.hpp"
 #include "mavloom/msg/set_position_target_global_int.hpp"
 #include "mavloom/msg/set_position_target_local_ned.hpp"
@@ -14,11 +15,10 @@
 
 namespace mavloom::sim {
 
-struct Parts;
-
 class ArdupilotSetpoints {
 public:
-    explicit ArdupilotSetpoints(Parts& parts) noexcept : parts_(parts) {}
+    ArdupilotSetpoints(Kind kind, Flight& flight, FlightObserver& observer) noexcept
+        : kind_(kind), flight_(flight), observer_(observer) {}
 
     void on_local_target(ByteView payload);
     void on_global_target(ByteView payload);
@@ -48,7 +48,9 @@ private:
     void go_to(const Vector3& place, double yaw);
     void stop();
 
-    Parts& parts_;
+    const Kind kind_;
+    Flight& flight_;
+    FlightObserver& observer_;
 };
 
 }  // namespace mavloom::sim

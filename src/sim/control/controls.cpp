@@ -40,7 +40,8 @@ double axis(std::int16_t value) noexcept {
 
 }  // namespace
 
-Controls::Controls(Parts& parts) noexcept : parts_(parts), px4_(parts), ardupilot_(parts) {}
+Controls::Controls(Parts& parts) noexcept
+    : parts_(parts), px4_(parts.flight, parts), ardupilot_(parts.options.kind, parts.flight, parts) {}
 
 std::span<const MessageId> Controls::handled() const noexcept { return control_messages; }
 

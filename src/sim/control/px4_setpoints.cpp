@@ -10,7 +10,6 @@
 #include "mavloom/msg/set_position_target_local_ned.hpp"
 #include "sim/command/positions.hpp"
 #include "sim/control/setpoint_fields.hpp"
-#include "sim/parts.hpp"
 
 namespace mavloom::sim {
 
@@ -40,12 +39,12 @@ void drop_for_body(OffboardSetpoint& s) noexcept {
 }  // namespace
 
 void Px4Setpoints::reject(std::string_view message, Moment now) {
-    if (texts_.spend(now.flight)) parts_.on_text(Severity::error, std::string(message) + " invalid");
+    if (texts_.spend(now.flight)) observer_.on_text(Severity::error, std::string(message) + " invalid");
 }
 
 void Px4Setpoints::follow(const OffboardSetpoint& setpoint, std::string_view message, Moment now) {
     if (!is_valid_trajectory(setpoint)) return reject(message, now);
-    parts_.flight.on_offboard(setpoint);
+    flight_.on_offboard(setpoint);
 }
 
 // Frames with an offset count from where the vehicle is.
@@ -57,7 +56,7 @@ void Px4Setpoints::on_local_target(ByteView payload, Moment now) {
                          field(m.type_mask, POSITION_TARGET_TYPEMASK_Z_IGNORE, m.z)};
     if (!is_local_frame(m.coordinate_frame) || asks_for_force(m.type_mask, setpoint))
         return reject(SetPositionTargetLocalNed::name, now);
-    const Estimate& estimate = parts_.flight.estimate();
+    const Estimate& estimate = flight_.estimate();
     if (m.coordinate_frame == MAV_FRAME_BODY_NED) drop_for_body(setpoint);
     if (is_body_frame(m.coordinate_frame))
         for (Vector3* const vector : {&setpoint.position, &setpoint.velocity, &setpoint.acceleration})
@@ -72,7 +71,7 @@ void Px4Setpoints::on_global_target(ByteView payload, Moment now) {
     OffboardSetpoint setpoint = motion_of(m);
     const bool has_place = (m.type_mask & no_place) == 0;
     const bool has_height = (m.type_mask & POSITION_TARGET_TYPEMASK_Z_IGNORE) == 0 && !std::isnan(m.alt);
-    const Vector3 place = local_position_of(m, parts_);
+    const Vector3 place = local_position_of(m, flight_);
     const bool has_unknown_frame = (has_place || has_height) && !is_global_frame(m.coordinate_frame);
     if (has_unknown_frame || asks_for_force(m.type_mask, setpoint) || (has_place && std::isnan(place.x())) ||
         (has_height && std::isinf(m.alt)))
@@ -93,7 +92,7 @@ void Px4Setpoints::on_attitude_target(ByteView payload, Moment now) {
         is_valid = is_valid && std::isfinite(length) && length > smallest;
     }
     if (!is_valid) return reject(SetAttitudeTarget::name, now);
-    parts_.flight.on_offboard(setpoint);
+    flight_.on_offboard(setpoint);
 }
 
 // Group 0 holds roll, pitch, yaw and thrust.
@@ -104,7 +103,7 @@ void Px4Setpoints::on_actuator_target(ByteView payload, Moment now) {
     for (std::size_t i = 0; i < setpoint.mixer.size(); ++i) setpoint.mixer[i] = double{m.controls[i]};
     const bool is_finite = std::ranges::all_of(setpoint.mixer, [](double value) { return std::isfinite(value); });
     if (!is_finite) return reject(SetActuatorControlTarget::name, now);
-    parts_.flight.on_offboard(setpoint);
+    flight_.on_offboard(setpoint);
 }
 
 }  // namespace mavloom::sim

@@ -7,17 +7,16 @@
 
 #include <string_view>
 
+#include "flight/flight.hpp"
 #include "flight/orders.hpp"
 #include "sim/service/service.hpp"
 #include "sim/service/text_limit.hpp"
 
 namespace mavloom::sim {
 
-struct Parts;
-
 class Px4Setpoints {
 public:
-    explicit Px4Setpoints(Parts& parts) noexcept : parts_(parts) {}
+    Px4Setpoints(Flight& flight, FlightObserver& observer) noexcept : flight_(flight), observer_(observer) {}
 
     void on_local_target(ByteView payload, Moment now);
     void on_global_target(ByteView payload, Moment now);
@@ -28,7 +27,8 @@ private:
     void follow(const OffboardSetpoint& setpoint, std::string_view message, Moment now);
     void reject(std::string_view message, Moment now);
 
-    Parts& parts_;
+    Flight& flight_;
+    FlightObserver& observer_;
     TextLimit texts_;  // about rejected messages
 };
 

@@ -6,7 +6,6 @@
 #include "mavloom/msg/enums/attitude_target_typemask.hpp"
 #include "mavloom/msg/enums/mav_frame.hpp"
 #include "sim/command/positions.hpp"
-#include "sim/parts.hpp"
 
 namespace mavloom::sim {
 
@@ -25,13 +24,13 @@ OffboardSetpoint attitude_of(const SetAttitudeTarget& m) noexcept {
     return setpoint;
 }
 
-Vector3 local_position_of(const SetPositionTargetGlobalInt& m, const Parts& parts) {
+Vector3 local_position_of(const SetPositionTargetGlobalInt& m, const Flight& flight) {
     const Command place{.x = from_degrees_e7(m.lat_int),
                         .y = from_degrees_e7(m.lon_int),
                         .z = double{m.alt},
                         .frame = m.coordinate_frame};
-    const LocalFrame& frame = parts.flight.frame();
-    Vector3 local(nan, nan, frame.origin().altitude - altitude_of(place, parts));
+    const LocalFrame& frame = flight.frame();
+    Vector3 local(nan, nan, frame.origin().altitude - altitude_of(place, flight));
     if (std::abs(place.x) <= 90 && std::abs(place.y) <= 180)
         local.head<2>() = frame.to_local({place.x, place.y, 0}).head<2>();
     return local;

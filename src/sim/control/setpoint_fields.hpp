@@ -2,6 +2,7 @@
 // The fields of set-points, as both firmwares read them from messages. Private to module sim; functions.
 #pragma once
 
+#include "flight/flight.hpp"
 #include "flight/orders.hpp"
 #include "mavloom/msg/enums/position_target_typemask.hpp"
 #include "mavloom/msg/set_attitude_target.hpp"
@@ -9,8 +10,6 @@
 #include "mavloom/sim/flight.hpp"
 
 namespace mavloom::sim {
-
-struct Parts;
 
 [[nodiscard]] inline double field(unsigned mask, unsigned bit, float value) noexcept {
     return (mask & bit) != 0 ? nan : double{value};
@@ -34,7 +33,7 @@ template <class Message>
 // Attitude, rates and thrust. Without an attitude, the set-point steers by the rates.
 [[nodiscard]] OffboardSetpoint attitude_of(const msg::SetAttitudeTarget& m) noexcept;
 // The place in the vehicle's local frame, whether the mask excludes it or not. `nan`: there is no such place.
-[[nodiscard]] Vector3 local_position_of(const msg::SetPositionTargetGlobalInt& m, const Parts& parts);
+[[nodiscard]] Vector3 local_position_of(const msg::SetPositionTargetGlobalInt& m, const Flight& flight);
 
 [[nodiscard]] inline bool is_whole(const Vector3& vector) noexcept { return !vector.array().isNaN().any(); }
 [[nodiscard]] inline bool has_infinity(const Vector3& vector) noexcept { return vector.array().isInf().any(); }

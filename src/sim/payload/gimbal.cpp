@@ -9,7 +9,7 @@
 #include "mavloom/msg/gimbal_manager_set_attitude.hpp"
 #include "mavloom/msg/gimbal_manager_set_manual_control.hpp"
 #include "mavloom/msg/gimbal_manager_set_pitchyaw.hpp"
-#include "sim/parts.hpp"
+#include "sim/command/commands.hpp"
 
 namespace mavloom::sim {
 
@@ -118,7 +118,7 @@ void Gimbal::reboot() {
 }
 
 void Gimbal::step() {
-    if (interest_ != parts_.flight.region_of_interest() || (interest_ && origin_ != parts_.flight.frame().origin()))
+    if (interest_ != flight_.region_of_interest() || (interest_ && origin_ != flight_.frame().origin()))
         notice_interest();
     if (follows_interest_) point_at_interest();
     motion_.step(step_s);
@@ -133,7 +133,7 @@ std::uint16_t Gimbal::flags() const noexcept {
 }
 
 bool Gimbal::may_control(const Source& who) const noexcept {
-    const Source mission{parts_.options.system, autopilot_component};
+    const Source mission{options_.system, autopilot_component};
     return who == primary_ || (primary_ == nobody && who == secondary_) || who == mission;
 }
 
@@ -152,7 +152,7 @@ void Gimbal::aim(const GimbalAim& asked, std::uint32_t flags) {
 }
 
 void Gimbal::notice_interest() {
-    const Flight& flight = parts_.flight;
+    const Flight& flight = flight_;
     const bool is_new = std::exchange(interest_, flight.region_of_interest()) != interest_;
     origin_ = flight.frame().origin();
     if (interest_) interest_position_ = flight.frame().to_local(*interest_);
@@ -163,7 +163,7 @@ void Gimbal::notice_interest() {
 }
 
 void Gimbal::point_at_interest() {
-    const Vector3 line = interest_position_ - parts_.flight.estimate().position;
+    const Vector3 line = interest_position_ - flight_.estimate().position;
     motion_.aim({.pitch = -std::atan2(line.z(), std::hypot(line.x(), line.y())),
                  .yaw = std::atan2(line.y(), line.x()),
                  .pitch_rate = nan,
@@ -173,6 +173,6 @@ void Gimbal::point_at_interest() {
                 heading());
 }
 
-double Gimbal::heading() const noexcept { return parts_.flight.estimate().heading; }
+double Gimbal::heading() const noexcept { return flight_.estimate().heading; }
 
 }  // namespace mavloom::sim

@@ -12,13 +12,11 @@
 namespace mavloom::sim {
 
 struct Command;
-struct Parts;
-
 class Gimbal final : public Service {
 public:
     static constexpr std::uint8_t device_id = 1;
 
-    explicit Gimbal(Parts& parts) noexcept : parts_(parts) {}
+    Gimbal(const VehicleOptions& options, const Flight& flight) noexcept : options_(options), flight_(flight) {}
 
     [[nodiscard]] std::span<const MessageId> handled() const noexcept override;
     void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
@@ -46,7 +44,8 @@ private:
     void point_at_interest();
     [[nodiscard]] double heading() const noexcept;
 
-    Parts& parts_;
+    const VehicleOptions& options_;
+    const Flight& flight_;
     GimbalMotion motion_;
     Source primary_{SystemId{0}, ComponentId{0}}, secondary_{SystemId{0}, ComponentId{0}};
     std::uint16_t rest_ = 0;  // the flag for retract or neutral, while in that position

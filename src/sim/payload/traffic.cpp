@@ -9,7 +9,6 @@
 #include "mavloom/msg/enums/adsb_altitude_type.hpp"
 #include "mavloom/msg/enums/adsb_emitter_type.hpp"
 #include "mavloom/msg/enums/adsb_flags.hpp"
-#include "sim/parts.hpp"
 
 namespace mavloom::sim {
 
@@ -78,12 +77,13 @@ Aircraft make_aircraft(Random& random) {
     return made;
 }
 
-Traffic::Traffic(Parts& parts) : parts_(parts) {
+Traffic::Traffic(const VehicleOptions& options, Radio& radio, const Streams& streams, FlightTime now)
+    : options_(options), radio_(radio), streams_(streams) {
     constexpr std::uint64_t own_sequence = 0x74726166666963;  // apart from the noise of the vehicle
-    Random random(parts.options.seed ^ own_sequence);
-    for (std::size_t i = 0; i < std::min(parts.options.traffic, max_aircraft); ++i)
+    Random random(options_.seed ^ own_sequence);
+    for (std::size_t i = 0; i < std::min(options_.traffic, max_aircraft); ++i)
         aircraft_.push_back(make_aircraft(random));
-    if (!aircraft_.empty()) next_ = parts.now.flight + period / 2;
+    if (!aircraft_.empty()) next_ = now + period / 2;
 }
 
 // Each aircraft transmits once a second; they take turns, so that their messages do not burst. Nor do they after a
@@ -98,7 +98,7 @@ void Traffic::pump(Moment now) {
 
 void Traffic::transmit(const Aircraft& aircraft, std::uint64_t round, FlightTime now) {
     const Aircraft::Motion motion = aircraft.at(std::chrono::duration<double>(now).count());
-    const Home& home = parts_.options.home;
+    const Home& home = options_.home;
     const GeoPoint place = LocalFrame({home.latitude_deg, home.longitude_deg, home.altitude_m}).to_geo(motion.position);
     const double speed = motion.velocity.head<2>().norm();
     const double heading = wrap_2pi(std::atan2(motion.velocity.y(), motion.velocity.x()));
@@ -116,11 +116,11 @@ void Traffic::transmit(const Aircraft& aircraft, std::uint64_t round, FlightTime
         .tslc = 0,
         .flags = valid_flags,
         .squawk = aircraft.squawk};
-    for (const LinkId link : parts_.radio.links()) {
-        const auto interval = parts_.streams.interval(link, msg::AdsbVehicle::id);
+    for (const LinkId link : radio_.links()) {
+        const auto interval = streams_.interval(link, msg::AdsbVehicle::id);
         if (interval && interval->count() <= 0) continue;
         const auto every = interval ? static_cast<std::uint64_t>(std::max<std::int64_t>(1, *interval / period)) : 1;
-        if (round % every == 0) parts_.radio.send(link, message);
+        if (round % every == 0) radio_.send(link, message);
     }
 }
 

@@ -9,11 +9,12 @@
 
 #include "flight/physics/geodesy.hpp"
 #include "flight/physics/random.hpp"
+#include "mavloom/sim/vehicle.hpp"
+#include "sim/radio/radio.hpp"
 #include "sim/service/service.hpp"
+#include "sim/telemetry/streams.hpp"
 
 namespace mavloom::sim {
-
-struct Parts;
 
 struct Aircraft {
     std::uint32_t icao = 0;
@@ -37,7 +38,8 @@ struct Aircraft {
 
 class Traffic final : public Service {
 public:
-    explicit Traffic(Parts& parts);
+    // The first aircraft transmits soon after `now`.
+    Traffic(const VehicleOptions& options, Radio& radio, const Streams& streams, FlightTime now);
 
     [[nodiscard]] std::span<const MessageId> handled() const noexcept override { return {}; }
     void receive(const Client&, MessageId, ByteView, Moment) override {}
@@ -50,7 +52,9 @@ private:
 
     void transmit(const Aircraft& aircraft, std::uint64_t round, FlightTime now);
 
-    Parts& parts_;
+    const VehicleOptions& options_;
+    Radio& radio_;
+    const Streams& streams_;
     std::vector<Aircraft> aircraft_;
     std::uint64_t turns_ = 0;  // transmissions so far; the aircraft take turns
     FlightTime next_ = FlightTime::max();

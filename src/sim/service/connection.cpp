@@ -9,7 +9,6 @@
 #include "mavloom/msg/ping.hpp"
 #include "mavloom/msg/radio_status.hpp"
 #include "mavloom/msg/timesync.hpp"
-#include "sim/parts.hpp"
 
 namespace mavloom::sim {
 
@@ -31,18 +30,18 @@ void Connection::receive(const Client& from, MessageId id, ByteView payload, Mom
 
 void Connection::on_heartbeat(const Client& from, ByteView payload, Moment now) {
     if (msg::Heartbeat::decode(payload).type != msg::MAV_TYPE_GCS) return;
-    parts_.flight.on_ground_station_heard();
-    parts_.announcer.greet(from.link, now.flight);
+    flight_.on_ground_station_heard();
+    announcer_.greet(from.link, now.flight);
 }
 
 // A request has tc1 = 0. It is answered at once with the vehicle's time since boot, as PX4 does.
 void Connection::on_timesync(const Client& from, ByteView payload, Moment now) {
     const auto request = msg::Timesync::decode(payload);
     if (request.tc1 != 0) return;
-    parts_.radio.send(from.link, msg::Timesync{.tc1 = (now.flight - parts_.booted).count(),
-                                               .ts1 = request.ts1,
-                                               .target_system = from.id.system.value,
-                                               .target_component = from.id.component.value});
+    radio_.send(from.link, msg::Timesync{.tc1 = (now.flight - booted_).count(),
+                                         .ts1 = request.ts1,
+                                         .target_system = from.id.system.value,
+                                         .target_component = from.id.component.value});
 }
 
 // A request has no target.
@@ -51,7 +50,7 @@ void Connection::on_ping(const Client& from, ByteView payload) {
     if (ping.target_system != 0 || ping.target_component != 0) return;
     ping.target_system = from.id.system.value;
     ping.target_component = from.id.component.value;
-    parts_.radio.send(from.link, ping);
+    radio_.send(from.link, ping);
 }
 
 // A telemetry radio reports how full its buffer is (txbuf, percent free). PX4's rule: slow down below 35 %, quickly
@@ -60,7 +59,7 @@ void Connection::on_radio_status(const Client& from, ByteView payload, Moment no
     if (from.id != radio_source) return;
     const auto free = msg::RadioStatus::decode(payload).txbuf;
     const double factor = free < 25 ? 0.8 : free < 35 ? 0.975 : free > 50 ? 1.025 : 1.0;
-    parts_.streams.scale_share(from.link, factor, now.flight);
+    streams_.scale_share(from.link, factor, now.flight);
 }
 
 }  // namespace mavloom::sim

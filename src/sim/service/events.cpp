@@ -93,7 +93,8 @@ void EventService::pump(Moment now) {
     if (now.flight < next_check_) return;
     next_check_ = now.flight + check_interval;
     if (now.flight < may_report_) return;
-    if (const HealthReport report = health_report(parts_); report != reported_) send_report(report, now.flight);
+    if (const HealthReport report = health_report(parts_.flight, parts_.announcer.has_audience()); report != reported_)
+        send_report(report, now.flight);
 }
 
 template <class... Arguments>
@@ -144,7 +145,8 @@ bool EventService::report_text(std::string_view text) {
 }
 
 void EventService::report_health() {
-    if (parts_.firmware.is_px4()) send_report(health_report(parts_), parts_.now.flight);
+    if (parts_.firmware.is_px4())
+        send_report(health_report(parts_.flight, parts_.announcer.has_audience()), parts_.now.flight);
 }
 
 void EventService::send_report(const HealthReport& report, FlightTime now) {

@@ -9,7 +9,6 @@
 #include "mavloom/msg/heartbeat.hpp"
 #include "mavloom/msg/radio_status.hpp"
 #include "mavloom/msg/setup_signing.hpp"
-#include "sim/parts.hpp"
 
 namespace mavloom::sim {
 
@@ -27,7 +26,7 @@ bool Guard::admits(const wire::FrameView& frame, WallTime utc) {
     if (!verifier_) return true;
     if (!last_was_signed_) return std::ranges::find(unsigned_messages, frame.id()) != unsigned_messages.end();
     if (verifier_->verify(frame, wire::SigningTime::from(utc)) != wire::Verifier::Verdict::good) return false;
-    parts_.radio.raise_signing_time(verifier_->newest());
+    radio_.raise_signing_time(verifier_->newest());
     return true;
 }
 
@@ -39,18 +38,19 @@ void Guard::receive(const Client& /*from*/, MessageId /*id*/, ByteView payload, 
     const wire::SigningKey key(request.secret_key);
     const bool is_off = std::ranges::all_of(request.secret_key, [](std::uint8_t byte) { return byte == 0; });
     if ((is_off && !last_was_signed_) || key == key_) return;
-    if (parts_.flight.armed()) return parts_.on_text(Severity::warning, "Signing key refused: vehicle is armed");
+    if (flight_.armed()) return observer_.on_text(Severity::warning, "Signing key refused: vehicle is armed");
     constexpr std::uint64_t latest = (std::uint64_t{1} << 48) - 1;
-    if (request.initial_timestamp > latest) return parts_.on_text(Severity::warning, "Signing key refused: bad time");
+    if (request.initial_timestamp > latest)
+        return observer_.on_text(Severity::warning, "Signing key refused: bad time");
     use(is_off ? std::nullopt : std::optional(key), {request.initial_timestamp});
-    parts_.on_text(Severity::info, is_off ? "Message signing is off" : "Message signing is on");
+    observer_.on_text(Severity::info, is_off ? "Message signing is off" : "Message signing is on");
 }
 
 void Guard::use(const std::optional<wire::SigningKey>& key, wire::SigningTime start) {
     key_ = key;
     verifier_.reset();
     if (key) verifier_.emplace(*key, wire::SigningTime{});
-    parts_.radio.sign_with(key, start);
+    radio_.sign_with(key, start);
 }
 
 }  // namespace mavloom::sim

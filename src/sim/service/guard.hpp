@@ -6,18 +6,19 @@
 
 #include <optional>
 
+#include "flight/flight.hpp"
 #include "mavloom/base/clock.hpp"
 #include "mavloom/wire/frame.hpp"
 #include "mavloom/wire/signing.hpp"
+#include "sim/radio/radio.hpp"
 #include "sim/service/service.hpp"
 
 namespace mavloom::sim {
 
-struct Parts;
-
 class Guard final : public Service {
 public:
-    explicit Guard(Parts& parts) noexcept : parts_(parts) {}
+    Guard(const Flight& flight, Radio& radio, FlightObserver& observer) noexcept
+        : flight_(flight), radio_(radio), observer_(observer) {}
 
     // Returns false if the frame must be dropped. `utc` is the current time, for checking timestamps.
     [[nodiscard]] bool admits(const wire::FrameView& frame, WallTime utc);
@@ -28,7 +29,9 @@ public:
 private:
     void use(const std::optional<wire::SigningKey>& key, wire::SigningTime start);
 
-    Parts& parts_;
+    const Flight& flight_;
+    Radio& radio_;
+    FlightObserver& observer_;
     std::optional<wire::SigningKey> key_;
     std::optional<wire::Verifier> verifier_;
     bool last_was_signed_ = false;  // whether the last frame passed to `admits` was signed

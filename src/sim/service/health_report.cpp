@@ -4,7 +4,6 @@
 #include <bit>
 
 #include "sim/metadata/event_catalog.hpp"
-#include "sim/parts.hpp"
 #include "sim/store/log_service.hpp"
 
 namespace mavloom::sim {
@@ -27,15 +26,15 @@ std::uint8_t number_of(HealthComponent component) noexcept {
 
 class Examiner {
 public:
-    explicit Examiner(const Parts& parts) noexcept
-        : parts_(parts), flight_(parts.flight), unready_(parts.flight.unready()) {}
+    Examiner(const Flight& flight, bool has_audience) noexcept
+        : flight_(flight), has_audience_(has_audience), unready_(flight.unready()) {}
 
     HealthReport examine() {
         report_.present = health_absolute_pressure | health_motors | health_battery | health_local_position |
                           health_magnetometer | health_accelerometer | health_gyro;
         // PX4 records from boot on, until the end of the first flight; later from arming to disarming.
         if (flight_.armed() || flight_.flights() == 0) report_.present |= health_logging;
-        if (parts_.announcer.has_audience()) report_.present |= health_communication;
+        if (has_audience_) report_.present |= health_communication;
         // The estimate of the attitude is ready with the first fix, that of the position at the end of the start.
         constexpr std::uint8_t three_dimensions = 3;
         const bool has_fix = flight_.sensors().gps().fix_type >= three_dimensions;
@@ -69,7 +68,7 @@ private:
         if (!has_position) add(event_id::no_global_position, global_modes, health_global_position);
         if (flight_.plans().mission().empty()) add(event_id::no_mission, mission_mode, health_system);
         if (!flight_.has_sticks()) add(event_id::no_manual_control, all_modes, health_remote_control);
-        if (!parts_.announcer.has_audience()) add(event_id::no_ground_station, all_modes, health_communication);
+        if (!has_audience_) add(event_id::no_ground_station, all_modes, health_communication);
         if ((unready_ & unready_terminated) != 0) add(event_id::terminated, all_modes, health_system);
         if (has_position && (unready_ & unready_mode) != 0) add(event_id::no_arming_in_mode, all_modes, health_system);
         find_battery_problem(flight_.battery().remaining());
@@ -112,14 +111,16 @@ private:
         if (report_.count < report_.problems.size()) report_.problems[report_.count++] = problem;
     }
 
-    const Parts& parts_;
     const Flight& flight_;
+    const bool has_audience_;
     std::uint32_t unready_;
     HealthReport report_;
 };
 
 }  // namespace
 
-HealthReport health_report(const Parts& parts) { return Examiner(parts).examine(); }
+HealthReport health_report(const flight::Flight& flight, bool has_audience) {
+    return Examiner(flight, has_audience).examine();
+}
 
 }  // namespace mavloom::sim

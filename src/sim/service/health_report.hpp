@@ -10,9 +10,9 @@
 #include <cstdint>
 #include <span>
 
-namespace mavloom::sim {
+#include "flight/flight.hpp"
 
-struct Parts;
+namespace mavloom::sim {
 
 struct HealthProblem {
     std::uint32_t event = 0;
@@ -34,6 +34,7 @@ struct HealthReport {
     friend constexpr bool operator==(const HealthReport&, const HealthReport&) = default;
 };
 
-[[nodiscard]] HealthReport health_report(const Parts& parts);
+// `has_audience`: a ground station was heard on an open link.
+[[nodiscard]] HealthReport health_report(const flight::Flight& flight, bool has_audience);
 
 }  // namespace mavloom::sim

@@ -13,10 +13,12 @@ namespace mavloom::sim {
 std::vector<std::unique_ptr<Service>> make_other_services(Parts& parts) {
     std::vector<std::unique_ptr<Service>> services;
     services.push_back(std::make_unique<Controls>(parts));
-    services.push_back(std::make_unique<Shell>(parts));
-    if (parts.options.traffic != 0) services.push_back(std::make_unique<Traffic>(parts));
-    services.push_back(std::make_unique<Connection>(parts));
-    services.push_back(std::make_unique<DataStreams>(parts));
+    services.push_back(std::make_unique<Shell>(parts.firmware, parts.options.limits.clients, parts.radio));
+    if (parts.options.traffic != 0)
+        services.push_back(std::make_unique<Traffic>(parts.options, parts.radio, parts.streams, parts.now.flight));
+    services.push_back(
+        std::make_unique<Connection>(parts.booted, parts.flight, parts.radio, parts.streams, parts.announcer));
+    services.push_back(std::make_unique<DataStreams>(parts.firmware, parts.streams));
     return services;
 }
 

@@ -11,7 +11,6 @@
 #include "mavloom/msg/enums/serial_control_dev.hpp"
 #include "mavloom/msg/enums/serial_control_flag.hpp"
 #include "mavloom/msg/serial_control.hpp"
-#include "sim/parts.hpp"
 #include "sim/service/shares.hpp"
 
 namespace mavloom::sim {
@@ -28,7 +27,7 @@ std::span<const MessageId> Shell::handled() const noexcept { return shell_messag
 void Shell::receive(const Client& from, MessageId /*id*/, ByteView payload, Moment /*now*/) {
     const auto message = msg::SerialControl::decode(payload);
     const bool is_reply = (message.flags & msg::SERIAL_CONTROL_FLAG_REPLY) != 0;
-    if (!parts_.firmware.is_px4() || message.device != msg::SERIAL_CONTROL_DEV_SHELL || is_reply) return;
+    if (!firmware_.is_px4() || message.device != msg::SERIAL_CONTROL_DEV_SHELL || is_reply) return;
     const std::size_t count = std::min<std::size_t>(message.count, message.data.size());
     if (Session* const session = session_of(from)) read(*session, ByteView(message.data).first(count));
 }
@@ -36,7 +35,7 @@ void Shell::receive(const Client& from, MessageId /*id*/, ByteView payload, Mome
 Shell::Session* Shell::session_of(const Client& client) {
     const auto at = std::ranges::find(sessions_, client, &Session::client);
     if (at != sessions_.end()) return &*at;
-    if (!make_room(sessions_, client.link, parts_.options.limits.clients)) return nullptr;
+    if (!make_room(sessions_, client.link, max_clients_)) return nullptr;
     return &sessions_.emplace_back(Session{.client = client});
 }
 
@@ -59,7 +58,7 @@ void Shell::read(Session& session, ByteView bytes) {
 
 std::string Shell::answer(std::string_view line) const {
     if (line.empty()) return {};
-    const std::uint32_t version = parts_.firmware.version().flight;
+    const std::uint32_t version = firmware_.version().flight;
     if (line == "help") return "help usage:  help\n\n  help  ver\n";
     if (line == "ver" || line.starts_with("ver "))
         return fmt::format("HW arch: MAVLOOM_SIM\nPX4 version: {}.{}.{}\n", version >> 24, version >> 16 & 0xff,
@@ -76,7 +75,7 @@ void Shell::send(const Client& to, std::string_view text) {
         const std::size_t count = std::min(text.size(), reply.data.size());
         reply.count = static_cast<std::uint8_t>(count);
         std::memcpy(reply.data.data(), text.data(), count);
-        parts_.radio.send(to.link, reply);
+        radio_.send(to.link, reply);
         text.remove_prefix(count);
     }
 }

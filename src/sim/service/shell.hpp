@@ -7,15 +7,16 @@
 #include <string_view>
 #include <vector>
 
+#include "flight/firmware/firmware.hpp"
+#include "sim/radio/radio.hpp"
 #include "sim/service/service.hpp"
 
 namespace mavloom::sim {
 
-struct Parts;
-
 class Shell final : public Service {
 public:
-    explicit Shell(Parts& parts) noexcept : parts_(parts) {}
+    Shell(const Firmware& firmware, std::size_t max_clients, Radio& radio) noexcept
+        : firmware_(firmware), max_clients_(max_clients), radio_(radio) {}
 
     [[nodiscard]] std::span<const MessageId> handled() const noexcept override;
     void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
@@ -35,7 +36,9 @@ private:
     [[nodiscard]] std::string answer(std::string_view line) const;
     void send(const Client& to, std::string_view text);
 
-    Parts& parts_;
+    const Firmware& firmware_;
+    const std::size_t max_clients_;
+    Radio& radio_;
     std::vector<Session> sessions_;
 };
 

@@ -10,7 +10,6 @@
 #include "mavloom/msg/enums/mav_ftp_opcode.hpp"
 #include "mavloom/msg/file_transfer_protocol.hpp"
 #include "mavloom/wire/crc32.hpp"
-#include "sim/parts.hpp"
 #include "sim/service/shares.hpp"
 #include "sim/store/log_service.hpp"
 #include "sim/store/parameter_pack.hpp"
@@ -33,8 +32,14 @@ constexpr Nanoseconds max_checksum_time = std::chrono::seconds{2};
 
 }  // namespace
 
-FileService::FileService(Parts& parts)
-    : parts_(parts), tree_(parts.firmware, parts.log_service->logs(), parts.options.limits) {}
+FileService::FileService(const VehicleOptions& options, const Firmware& firmware, const Parameters& parameters,
+                         Radio& radio, const RecordedLogs& logs)
+    : options_(options),
+      firmware_(firmware),
+      parameters_(parameters),
+      radio_(radio),
+      logs_(logs),
+      tree_(firmware, logs, options.limits) {}
 
 std::span<const MessageId> FileService::handled() const noexcept { return file_ids; }
 
@@ -73,9 +78,9 @@ void FileService::receive(const Client& from, MessageId /*id*/, ByteView payload
         peer->answered = identity;
         answer(*peer, request);
     } else if (request.header.opcode != MAV_FTP_OPCODE_BURSTREADFILE) {
-        parts_.radio.send(from.link, FileTransferProtocol{.target_system = from.id.system.value,
-                                                          .target_component = from.id.component.value,
-                                                          .payload = peer->reply});
+        radio_.send(from.link, FileTransferProtocol{.target_system = from.id.system.value,
+                                                    .target_component = from.id.component.value,
+                                                    .payload = peer->reply});
     } else if (peer->burst.left == 0) {
         answer(*peer, request);
     }
@@ -134,7 +139,7 @@ void FileService::change(const Request& request, Reply& reply, const Operation& 
 }
 
 FileResult<std::string> FileService::path_of(std::string_view text) const {
-    auto path = normal_path(text, parts_.log_service->logs());
+    auto path = normal_path(text, logs_);
     if (!path) return tl::unexpected(FileError{MAV_FTP_ERR_FILEPROTECTED});
     return *std::move(path);
 }
@@ -144,7 +149,7 @@ void FileService::end_session(Peer& peer, const Request& request, Reply& reply) 
     const std::uint8_t number = request.header.session;
     if (peer.burst.session == number) peer.burst = {};
     const auto ended = std::erase_if(peer.sessions, [&](const Session& session) { return session.number == number; });
-    if (ended == 0 && parts_.firmware.is_px4()) reply.error = {MAV_FTP_ERR_INVALIDSESSION};
+    if (ended == 0 && firmware_.is_px4()) reply.error = {MAV_FTP_ERR_INVALIDSESSION};
 }
 
 // Entries from number `offset` on, as many as fit, each with a NUL at its end.
@@ -169,7 +174,7 @@ void FileService::list(const Request& request, Reply& reply, bool with_time) {
 
 void FileService::open_for_reading(Peer& peer, const Request& request, Reply& reply) {
     const auto path = path_of(request.text());
-    auto made = path && !parts_.firmware.is_px4() ? parameter_pack(parts_.parameters, *path) : std::nullopt;
+    auto made = path && !firmware_.is_px4() ? parameter_pack(parameters_, *path) : std::nullopt;
     const auto file = !path ? tl::unexpected(path.error()) : made ? FileResult<FileRef>{FileRef{}} : tree_.find(*path);
     if (!file) {
         reply.error = file.error();
@@ -186,13 +191,13 @@ void FileService::open_for_reading(Peer& peer, const Request& request, Reply& re
 
 void FileService::open_for_writing(Peer& peer, const Request& request, Reply& reply, bool may_make, bool empties) {
     const bool is_full = find_session(peer, request.header.session) == nullptr &&
-                         peer.sessions.size() >= parts_.options.limits.file_sessions;
+                         peer.sessions.size() >= options_.limits.file_sessions;
     const auto path = path_of(request.text());
     if (!path || is_full) {
         reply.error = path ? FileError{MAV_FTP_ERR_NOSESSIONSAVAILABLE} : path.error();
         return;
     }
-    const auto file = tree_.open_for_writing(*path, may_make, empties, parts_.utc_at(request.now.flight));
+    const auto file = tree_.open_for_writing(*path, may_make, empties, options_.utc_at_start + request.now.flight);
     if (!file) {
         reply.error = file.error();
         return;
@@ -277,7 +282,7 @@ void FileService::begin_burst(Peer& peer, const Request& request, Reply& reply) 
 
 bool FileService::send_piece(Peer& peer) {
     Burst& burst = peer.burst;
-    if (burst.left == 0 || !parts_.radio.has_room(peer.client.link)) return false;
+    if (burst.left == 0 || !radio_.has_room(peer.client.link)) return false;
     const Session* const session = find_session(peer, burst.session);
     Header header{.seq = static_cast<std::uint16_t>(burst.seq - 1),
                   .session = burst.session,
@@ -325,7 +330,7 @@ void FileService::send(Peer& peer, const Header& header, const Reply& reply) {
         if (has_number) at[header_length + 1] = reply.error.number;
     }
     peer.reply = message.payload;
-    parts_.radio.send(peer.client.link, message);
+    radio_.send(peer.client.link, message);
 }
 
 // --- Clients and sessions
@@ -333,7 +338,7 @@ void FileService::send(Peer& peer, const Header& header, const Reply& reply) {
 FileService::Peer* FileService::find_peer(const Client& client, Moment now) {
     const auto at = std::ranges::find(peers_, client, &Peer::client);
     if (at != peers_.end()) return &*at;
-    const std::size_t most = parts_.options.limits.clients;
+    const std::size_t most = options_.limits.clients;
     // A client without a session that has been silent has nothing to lose but the answer to a repetition.
     if (peers_.size() >= most)
         std::erase_if(peers_, [&](const Peer& p) { return p.sessions.empty() && now.real - p.used >= session_idle; });
@@ -352,7 +357,7 @@ FileService::Session* FileService::open_session(Peer& peer, const Request& reque
         if (peer.burst.session == old->number) peer.burst = {};
         return old;
     }
-    if (peer.sessions.size() >= parts_.options.limits.file_sessions) return nullptr;
+    if (peer.sessions.size() >= options_.limits.file_sessions) return nullptr;
     return &peer.sessions.emplace_back();
 }
 

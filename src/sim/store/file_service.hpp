@@ -17,11 +17,10 @@
 
 namespace mavloom::sim {
 
-struct Parts;
-
 class FileService final : public Service {
 public:
-    explicit FileService(Parts& parts);
+    FileService(const VehicleOptions& options, const Firmware& firmware, const Parameters& parameters, Radio& radio,
+                const RecordedLogs& logs);
 
     [[nodiscard]] std::span<const MessageId> handled() const noexcept override;
     void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
@@ -108,7 +107,11 @@ private:
     [[nodiscard]] Session* open_session(Peer& peer, const Request& request) const;
     [[nodiscard]] FileResult<std::string> path_of(std::string_view text) const;
 
-    Parts& parts_;
+    const VehicleOptions& options_;
+    const Firmware& firmware_;
+    const Parameters& parameters_;
+    Radio& radio_;
+    const RecordedLogs& logs_;
     FileTree tree_;
     std::vector<Peer> peers_;     // at most Limits::clients
     MonoTime checksums_until_{};  // when the checksums so far would be done at the usual rate

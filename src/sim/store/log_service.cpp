@@ -12,7 +12,6 @@
 #include "mavloom/msg/log_request_list.hpp"
 #include "mavloom/msg/logging_ack.hpp"
 #include "mavloom/msg/remote_log_block_status.hpp"
-#include "sim/parts.hpp"
 #include "sim/service/shares.hpp"
 
 namespace mavloom::sim {
@@ -27,11 +26,15 @@ constexpr unsigned messages_at_once = 100;
 
 }  // namespace
 
-LogService::LogService(Parts& parts)
-    : parts_(parts),
-      logs_(parts.options, parts.firmware, parts.parameters, parts.flight, parts.radio),
-      streams_(parts.firmware.is_px4(), parts.options.system, parts.options.limits.clients, parts.radio) {
-    logs_.recorder().reboot(parts.booted);
+LogService::LogService(const VehicleOptions& options, const Firmware& firmware, const Parameters& parameters,
+                       const Flight& flight, Radio& radio, const FlightTime& booted)
+    : firmware_(firmware),
+      radio_(radio),
+      booted_(booted),
+      max_clients_(options.limits.clients),
+      logs_(options, firmware, parameters, flight, radio),
+      streams_(firmware.is_px4(), options.system, options.limits.clients, radio) {
+    logs_.recorder().reboot(booted_);
 }
 
 std::span<const MessageId> LogService::handled() const noexcept { return log_ids; }
@@ -42,7 +45,7 @@ void LogService::receive(const Client& from, MessageId id, ByteView payload, Mom
     if (id == LogRequestEnd::id) return stop(from);
     if (id == LoggingAck::id) return streams_.on_logging_ack(from, payload);
     if (id == RemoteLogBlockStatus::id) {
-        if (!parts_.firmware.is_px4()) streams_.on_block_status(from, payload, now);
+        if (!firmware_.is_px4()) streams_.on_block_status(from, payload, now);
         return;
     }
     logs_.erase();
@@ -62,7 +65,7 @@ void LogService::on_list(const Client& from, ByteView payload) {
     const std::uint32_t end = std::min<std::uint32_t>(logs_.count(),
                                                       static_cast<std::uint32_t>(index_of(request.end)) + 1);
     if (first < end && begin({.client = from, .is_list = true, .next = first, .end = end})) return;
-    parts_.radio.send(from.link, LogEntry{.num_logs = logs_.count(), .last_log_num = logs_.count()});
+    radio_.send(from.link, LogEntry{.num_logs = logs_.count(), .last_log_num = logs_.count()});
 }
 
 // A request beyond the end, or for a log that does not exist, is answered with no bytes.
@@ -83,14 +86,14 @@ void LogService::on_data(const Client& from, ByteView payload) {
 
 bool LogService::begin(const Download& download) {
     stop(download.client);
-    if (!make_room(downloads_, download.client.link, parts_.options.limits.clients)) return false;
+    if (!make_room(downloads_, download.client.link, max_clients_)) return false;
     downloads_.push_back(download);
     if (!advance(downloads_.back())) downloads_.pop_back();
     return true;
 }
 
 bool LogService::advance(Download& download) {
-    for (unsigned i = 0; i < messages_at_once && parts_.radio.has_room(download.client.link); ++i)
+    for (unsigned i = 0; i < messages_at_once && radio_.has_room(download.client.link); ++i)
         if (!send_next(download)) return false;
     return true;
 }
@@ -102,15 +105,15 @@ void LogService::stop(const Client& client) {
 void LogService::send_entry(const Client& to, std::uint32_t index) {
     const auto log = static_cast<std::uint16_t>(index);
     const WallTime began = logs_.began_at(log);
-    parts_.radio.send(to.link, LogEntry{.id_ = static_cast<std::uint16_t>(log + logs_.first_id()),
-                                        .num_logs = logs_.count(),
-                                        .last_log_num = logs_.count(),
-                                        .time_utc = static_cast<std::uint32_t>(unix_us(began) / 1'000'000),
-                                        .size = logs_.size(log)});
+    radio_.send(to.link, LogEntry{.id_ = static_cast<std::uint16_t>(log + logs_.first_id()),
+                                  .num_logs = logs_.count(),
+                                  .last_log_num = logs_.count(),
+                                  .time_utc = static_cast<std::uint32_t>(unix_us(began) / 1'000'000),
+                                  .size = logs_.size(log)});
 }
 
 void LogService::send_nothing(const Client& to, std::uint16_t id, std::uint32_t offset) {
-    parts_.radio.send(to.link, LogData{.id_ = id, .ofs = offset});
+    radio_.send(to.link, LogData{.id_ = id, .ofs = offset});
 }
 
 // When a flight begins, the oldest logs may go, and the list becomes shorter.
@@ -128,7 +131,7 @@ bool LogService::send_next(Download& download) {
     LogData message{.id_ = download.id, .ofs = download.next};
     message.count = static_cast<std::uint8_t>(std::min<std::size_t>(message.data.size(), download.end - download.next));
     (void)logs_.read(*log, download.next, ByteSpan(message.data).first(message.count));
-    parts_.radio.send(download.client.link, message);
+    radio_.send(download.client.link, message);
     download.next += message.count;
     return download.next < download.end;
 }
@@ -141,7 +144,7 @@ void LogService::pump(Moment now) {
 void LogService::reboot() {
     downloads_.clear();
     streams_.reboot();
-    logs_.recorder().reboot(parts_.booted);
+    logs_.recorder().reboot(booted_);
 }
 
 void LogService::forget(LinkId link) {

@@ -17,11 +17,10 @@ namespace mavloom::sim {
 
 using flight::Result;  // and not mavloom::Result
 
-struct Parts;
-
 class LogService final : public Service {
 public:
-    explicit LogService(Parts& parts);
+    LogService(const VehicleOptions& options, const Firmware& firmware, const Parameters& parameters,
+               const Flight& flight, Radio& radio, const FlightTime& booted);
 
     [[nodiscard]] std::span<const MessageId> handled() const noexcept override;
     void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
@@ -58,7 +57,10 @@ private:
     [[nodiscard]] bool send_next(Download& download);
     [[nodiscard]] bool advance(Download& download);  // sends as many messages as may be sent at once
 
-    Parts& parts_;
+    const Firmware& firmware_;
+    Radio& radio_;
+    const FlightTime& booted_;
+    const std::size_t max_clients_;
     RecordedLogs logs_;
     LogStreams streams_;
     std::vector<Download> downloads_;  // at most Limits::clients

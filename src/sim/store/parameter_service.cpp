@@ -13,7 +13,6 @@
 #include "mavloom/msg/param_request_read.hpp"
 #include "mavloom/msg/param_set.hpp"
 #include "mavloom/msg/param_value.hpp"
-#include "sim/parts.hpp"
 #include "sim/service/shares.hpp"
 
 namespace mavloom::sim {
@@ -59,21 +58,20 @@ void ParameterService::on_list(const Client& from, Moment now) {
         running->next = 0;
         return;
     }
-    if (!make_room(lists_, from.link, parts_.options.limits.clients))
-        return refuse(from, {.error = msg::MAV_PARAM_ERROR_READ_FAIL});
-    lists_.push_back({.client = from, .has_hash_ahead = parts_.firmware.is_px4()});
-    if (const auto banner = parts_.firmware.texts().banner; !banner.empty())
-        parts_.announcer.say(Severity::info, banner, now.flight);
+    if (!make_room(lists_, from.link, max_clients_)) return refuse(from, {.error = msg::MAV_PARAM_ERROR_READ_FAIL});
+    lists_.push_back({.client = from, .has_hash_ahead = firmware_.is_px4()});
+    if (const auto banner = firmware_.texts().banner; !banner.empty())
+        announcer_.say(Severity::info, banner, now.flight);
 }
 
 void ParameterService::on_read(const Client& from, ByteView payload) {
     const auto request = msg::ParamRequestRead::decode(payload);
     const std::string_view name = name_of(request.param_id);
-    if (request.param_index >= 0 && request.param_index < parts_.parameters.size())
+    if (request.param_index >= 0 && request.param_index < parameters_.size())
         return send_value(from.link, static_cast<ParamIndex>(request.param_index));
     if (request.param_index == -1) {
-        if (name == hash_name && parts_.firmware.is_px4()) return send_hash(from.link);
-        if (const auto index = parts_.parameters.find(name)) return send_value(from.link, *index);
+        if (name == hash_name && firmware_.is_px4()) return send_hash(from.link);
+        if (const auto index = parameters_.find(name)) return send_value(from.link, *index);
     }
     refuse(from, {.name = name, .index = request.param_index, .error = msg::MAV_PARAM_ERROR_DOES_NOT_EXIST});
 }
@@ -81,35 +79,34 @@ void ParameterService::on_read(const Client& from, ByteView payload) {
 void ParameterService::on_set(const Client& from, ByteView payload) {
     const auto request = msg::ParamSet::decode(payload);
     const std::string_view name = name_of(request.param_id);
-    if (name == hash_name && parts_.firmware.is_px4()) {
+    if (name == hash_name && firmware_.is_px4()) {
         stop(from);
         return refuse(from, {.name = name, .error = msg::MAV_PARAM_ERROR_READ_ONLY});
     }
-    if (const auto index = parts_.parameters.find(name))
-        return change(from, *index, request.param_type, request.param_value);
+    if (const auto index = parameters_.find(name)) return change(from, *index, request.param_type, request.param_value);
     refuse(from, {.name = name, .error = msg::MAV_PARAM_ERROR_DOES_NOT_EXIST});
 }
 
 // After a refusal, clients that know no PARAM_ERROR see by PARAM_VALUE that the old value holds.
 void ParameterService::change(const Client& from, ParamIndex index, std::uint8_t type, float value) {
     if (const auto error = check(index, type, value); error != msg::MAV_PARAM_ERROR_NO_ERROR) {
-        refuse(from, {.name = parts_.parameters.info(index).name, .index = index, .error = error});
+        refuse(from, {.name = parameters_.info(index).name, .index = index, .error = error});
         return send_value(from.link, index);
     }
-    if (parts_.firmware.is_bytewise()) {
-        parts_.parameters.set_bits(index, std::bit_cast<std::uint32_t>(value));
+    if (firmware_.is_bytewise()) {
+        parameters_.set_bits(index, std::bit_cast<std::uint32_t>(value));
     } else {
-        parts_.parameters.set(index, double{value});
+        parameters_.set(index, double{value});
     }
-    parts_.retune();
+    on_change_();
     announce(index);
 }
 
 // PX4 wants the type of the parameter, and stores any value. ArduPilot converts any type, and stores finite values.
 std::uint8_t ParameterService::check(ParamIndex index, std::uint8_t type, float value) const noexcept {
-    const ParamInfo& info = parts_.parameters.info(index);
+    const ParamInfo& info = parameters_.info(index);
     if (info.is_read_only) return msg::MAV_PARAM_ERROR_READ_ONLY;
-    if (!parts_.firmware.is_bytewise())
+    if (!firmware_.is_bytewise())
         return std::isfinite(value) ? msg::MAV_PARAM_ERROR_NO_ERROR : msg::MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE;
     if (type == static_cast<std::uint8_t>(info.type)) return msg::MAV_PARAM_ERROR_NO_ERROR;
     const bool is_known = type == msg::MAV_PARAM_TYPE_INT32 || type == msg::MAV_PARAM_TYPE_REAL32;
@@ -126,9 +123,9 @@ void ParameterService::forget(LinkId link) {
 
 void ParameterService::pump(Moment /*now*/) {
     std::erase_if(lists_, [this](List& list) {
-        for (int sent = 0; sent < values_per_pump && parts_.radio.has_room(list.client.link); ++sent)
+        for (int sent = 0; sent < values_per_pump && radio_.has_room(list.client.link); ++sent)
             if (!send_next(list)) return true;
-        return list.next == parts_.parameters.size();
+        return list.next == parameters_.size();
     });
 }
 
@@ -138,52 +135,52 @@ bool ParameterService::send_next(List& list) {
         send_hash(list.client.link);
         return true;
     }
-    if (list.next == parts_.parameters.size()) return false;
+    if (list.next == parameters_.size()) return false;
     send_value(list.client.link, list.next++);
     return true;
 }
 
 void ParameterService::announce(ParamIndex index) {
-    for (const LinkId link : parts_.radio.links()) send_value(link, index);
+    for (const LinkId link : radio_.links()) send_value(link, index);
 }
 
 void ParameterService::reset(std::string_view prefix) {
-    Parameters& parameters = parts_.parameters;
+    Parameters& parameters = parameters_;
     for (ParamIndex i = 0; i < parameters.size(); ++i) {
         const ParamInfo& info = parameters.info(i);
-        if (!info.name.starts_with(prefix) || info.name == parts_.firmware.system_parameter()) continue;
+        if (!info.name.starts_with(prefix) || info.name == firmware_.system_parameter()) continue;
         const std::uint32_t before = parameters.bits(i);
         parameters.set(i, info.initial);
         if (parameters.bits(i) != before) announce(i);
     }
-    parts_.retune();
+    on_change_();
 }
 
 void ParameterService::send_value(LinkId link, ParamIndex index) {
-    const Parameters& parameters = parts_.parameters;
-    const float value = parts_.firmware.is_bytewise() ? std::bit_cast<float>(parameters.bits(index))
-                                                      : static_cast<float>(parameters.value(index));
-    parts_.radio.send(link, msg::ParamValue{.param_id = id_of(parameters.info(index).name),
-                                            .param_value = value,
-                                            .param_type = static_cast<std::uint8_t>(parameters.info(index).type),
-                                            .param_count = parameters.size(),
-                                            .param_index = index});
+    const Parameters& parameters = parameters_;
+    const float value = firmware_.is_bytewise() ? std::bit_cast<float>(parameters.bits(index))
+                                                : static_cast<float>(parameters.value(index));
+    radio_.send(link, msg::ParamValue{.param_id = id_of(parameters.info(index).name),
+                                      .param_value = value,
+                                      .param_type = static_cast<std::uint8_t>(parameters.info(index).type),
+                                      .param_count = parameters.size(),
+                                      .param_index = index});
 }
 
 void ParameterService::send_hash(LinkId link) {
-    parts_.radio.send(link, msg::ParamValue{.param_id = id_of(hash_name),
-                                            .param_value = std::bit_cast<float>(parts_.parameters.hash()),
-                                            .param_type = msg::MAV_PARAM_TYPE_UINT32,
-                                            .param_count = parts_.parameters.size(),
-                                            .param_index = no_index});
+    radio_.send(link, msg::ParamValue{.param_id = id_of(hash_name),
+                                      .param_value = std::bit_cast<float>(parameters_.hash()),
+                                      .param_type = msg::MAV_PARAM_TYPE_UINT32,
+                                      .param_count = parameters_.size(),
+                                      .param_index = no_index});
 }
 
 void ParameterService::refuse(const Client& to, const Refusal& refusal) {
-    parts_.radio.send(to.link, msg::ParamError{.target_system = to.id.system.value,
-                                               .target_component = to.id.component.value,
-                                               .param_id = id_of(refusal.name),
-                                               .param_index = static_cast<std::int16_t>(refusal.index),
-                                               .error = refusal.error});
+    radio_.send(to.link, msg::ParamError{.target_system = to.id.system.value,
+                                         .target_component = to.id.component.value,
+                                         .param_id = id_of(refusal.name),
+                                         .param_index = static_cast<std::int16_t>(refusal.index),
+                                         .error = refusal.error});
 }
 
 }  // namespace mavloom::sim

@@ -8,16 +8,24 @@
 #include <string_view>
 #include <vector>
 
+#include "flight/firmware/firmware.hpp"
 #include "flight/firmware/parameters.hpp"
+#include "sim/radio/radio.hpp"
+#include "sim/service/announcer.hpp"
 #include "sim/service/service.hpp"
 
 namespace mavloom::sim {
 
-struct Parts;
-
 class ParameterService final : public Service {
 public:
-    explicit ParameterService(Parts& parts) noexcept : parts_(parts) {}
+    ParameterService(const Firmware& firmware, Parameters& parameters, Radio& radio, Announcer& announcer,
+                     std::size_t max_clients, std::function<void()> on_change) noexcept
+        : firmware_(firmware),
+          parameters_(parameters),
+          radio_(radio),
+          announcer_(announcer),
+          max_clients_(max_clients),
+          on_change_(on_change) {}
 
     [[nodiscard]] std::span<const MessageId> handled() const noexcept override;
     void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
@@ -57,7 +65,12 @@ private:
     void send_hash(LinkId link);
     void refuse(const Client& to, const Refusal& refusal);
 
-    Parts& parts_;
+    const Firmware& firmware_;
+    Parameters& parameters_;
+    Radio& radio_;
+    Announcer& announcer_;
+    std::size_t max_clients_;
+    std::function<void()> on_change_;
     std::vector<List> lists_;
 };
 

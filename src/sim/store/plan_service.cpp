@@ -21,7 +21,6 @@
 #include "mavloom/msg/mission_request_partial_list.hpp"
 #include "mavloom/msg/mission_set_current.hpp"
 #include "mavloom/msg/mission_write_partial_list.hpp"
-#include "sim/parts.hpp"
 #include "sim/service/shares.hpp"
 #include "sim/store/plan_items.hpp"
 
@@ -30,6 +29,7 @@ namespace mavloom::sim {
 namespace {
 
 using namespace msg;
+using flight::Result;  // and not mavloom::Result
 
 constexpr std::array plan_ids{MissionCount::id,
                               MissionItemInt::id,
@@ -119,9 +119,9 @@ void PlanService::on_count(const Client& from, const MissionCount& message, Mome
 PlanService::Transfer* PlanService::begin_upload(const Client& from, PlanType type, Moment now) {
     if (is_uploaded_by_another(from, type)) return nullptr;
     drop(from, type);
-    if (!make_room(transfers_, from.link, parts_.options.limits.clients)) return nullptr;
+    if (!make_room(transfers_, from.link, limits_.clients)) return nullptr;
     transfers_.push_back(
-        {.client = from, .type = type, .stage = Stage::upload, .asks_int = parts_.firmware.is_px4(), .heard = now.real});
+        {.client = from, .type = type, .stage = Stage::upload, .asks_int = firmware_.is_px4(), .heard = now.real});
     return &transfers_.back();
 }
 
@@ -129,8 +129,8 @@ PlanService::Transfer* PlanService::begin_upload(const Client& from, PlanType ty
 void PlanService::on_partial_write(const Client& from, ByteView payload, Moment now) {
     const auto message = MissionWritePartialList::decode(payload);
     const auto type = plan_type(message.mission_type);
-    if (parts_.firmware.is_px4() || !type) return acknowledge(from, message.mission_type, MAV_MISSION_UNSUPPORTED);
-    const auto items = parts_.flight.plans().of(*type).items();
+    if (firmware_.is_px4() || !type) return acknowledge(from, message.mission_type, MAV_MISSION_UNSUPPORTED);
+    const auto items = flight_.plans().of(*type).items();
     const int first = message.start_index, last = message.end_index;
     if (first < 0 || last < first || last > static_cast<int>(items.size()))
         return acknowledge(from, message.mission_type, MAV_MISSION_ERROR);
@@ -146,33 +146,33 @@ void PlanService::on_partial_write(const Client& from, ByteView payload, Moment 
 }
 
 void PlanService::on_item(const Client& from, const Request& request, Moment now) {
-    if (!parts_.firmware.is_px4() && (request.current == current_guided || request.current == current_altitude))
+    if (!firmware_.is_px4() && (request.current == current_guided || request.current == current_altitude))
         return on_guided_item(from, request);
     const auto type = plan_type(request.mission_type);
     Transfer* const transfer = type ? find(from, *type) : nullptr;
     if (transfer == nullptr || transfer->stage == Stage::download) {
-        if (parts_.firmware.is_px4() && texts_.spend(now.flight))
-            parts_.on_text(Severity::critical, "IGN MISSION_ITEM: No transfer");
+        if (firmware_.is_px4() && texts_.spend(now.flight))
+            observer_.on_text(Severity::critical, "IGN MISSION_ITEM: No transfer");
         return acknowledge(from, request.mission_type, MAV_MISSION_ERROR);
     }
     transfer->heard = now.real;
     transfer->has_form = true;
-    if (parts_.firmware.is_px4()) transfer->asks_int = request.is_int;
+    if (firmware_.is_px4()) transfer->asks_int = request.is_int;
     if (transfer->stage == Stage::finished) {
         // The last MISSION_ACK was lost.
-        const std::uint32_t id = parts_.flight.plans().of(*type).id();
+        const std::uint32_t id = flight_.plans().of(*type).id();
         if (request.seq + 1 == transfer->end) acknowledge(from, request.mission_type, MAV_MISSION_ACCEPTED, id);
         return;
     }
     if (request.seq == transfer->next) return store_item(*transfer, request, now);
     // An older item is a late duplicate. PX4 ignores newer ones as well and repeats its request.
-    if (request.seq > transfer->next && !parts_.firmware.is_px4())
+    if (request.seq > transfer->next && !firmware_.is_px4())
         acknowledge(from, request.mission_type, MAV_MISSION_INVALID_SEQUENCE);
 }
 
 void PlanService::store_item(Transfer& transfer, const Request& request, Moment now) {
     const auto count = static_cast<std::uint16_t>(transfer.items.size());
-    const auto result = check_item(request.item, transfer.type, count, parts_.firmware.is_px4());
+    const auto result = check_item(request.item, transfer.type, count, firmware_.is_px4());
     if (result != MAV_MISSION_ACCEPTED) {
         acknowledge(transfer.client, request.mission_type, result);
         return drop(transfer.client, transfer.type);
@@ -187,25 +187,25 @@ void PlanService::store_item(Transfer& transfer, const Request& request, Moment 
 void PlanService::finish(Transfer& transfer) {
     transfer.stage = Stage::finished;
     replace(transfer.type, std::exchange(transfer.items, {}));
-    Flight& flight = parts_.flight;
+    Flight& flight = flight_;
     // ArduPilot ignores the mark. A refusal does not matter: the mission then begins with its first item.
-    const bool marks = transfer.type == PlanType::mission && transfer.current && parts_.firmware.is_px4();
+    const bool marks = transfer.type == PlanType::mission && transfer.current && firmware_.is_px4();
     if (marks && *transfer.current != flight.mission().current) (void)flight.set_current_item(transfer.current, false);
     acknowledge(transfer.client, number_of(transfer.type), MAV_MISSION_ACCEPTED, flight.plans().of(transfer.type).id());
-    const Texts& texts = parts_.firmware.texts();
+    const Texts& texts = firmware_.texts();
     if (transfer.type == PlanType::mission) announce(texts.mission_received);
     if (transfer.type == PlanType::rally) announce(texts.rally_received);
 }
 
 void PlanService::announce(std::string_view text) {
-    if (!text.empty()) parts_.on_text(Severity::info, text);
+    if (!text.empty()) observer_.on_text(Severity::info, text);
 }
 
 void PlanService::replace(PlanType type, std::vector<PlanItem> items) {
     if (type == PlanType::mission) reached_.repeats = 0;
-    parts_.flight.plans().of(type).replace(std::move(items));
-    parts_.flight.on_plan_changed(type);
-    parts_.on_mission_progress();  // MISSION_CURRENT has the ids of all plans
+    flight_.plans().of(type).replace(std::move(items));
+    flight_.on_plan_changed(type);
+    observer_.on_mission_progress();  // MISSION_CURRENT has the ids of all plans
 }
 
 // PX4 changes to the form that its client speaks. ArduPilot always asks by MISSION_REQUEST, and takes both answers.
@@ -213,7 +213,7 @@ void PlanService::ask(Transfer& transfer, Moment now) { request_item(transfer, t
 
 // Clients that know only one form of the request do not answer the other one.
 void PlanService::ask_again(Transfer& transfer, Moment now) {
-    const bool may_try = parts_.firmware.is_px4() && !transfer.has_form;
+    const bool may_try = firmware_.is_px4() && !transfer.has_form;
     const bool tries_other_form = may_try && ++transfer.repeats % tries_of_form == 0;
     request_item(transfer, transfer.asks_int != tries_other_form, now);
 }
@@ -225,7 +225,7 @@ void PlanService::request_item(Transfer& transfer, bool as_int, Moment now) {
         message.target_component = transfer.client.id.component.value;
         message.seq = transfer.next;
         message.mission_type = number_of(transfer.type);
-        parts_.radio.send(transfer.client.link, message);
+        radio_.send(transfer.client.link, message);
     };
     if (as_int) return fill(MissionRequestInt{});
     fill(MissionRequest{});
@@ -237,14 +237,14 @@ void PlanService::on_list(const Client& from, std::uint8_t mission_type, Moment 
     const auto type = plan_type(mission_type);
     if (!type) return acknowledge(from, mission_type, MAV_MISSION_UNSUPPORTED);
     drop(from, *type);
-    const Plan& plan = parts_.flight.plans().of(*type);
+    const Plan& plan = flight_.plans().of(*type);
     Transfer transfer{.client = from,
                       .type = *type,
                       .stage = Stage::download,
                       .end = plan.size(),
                       .edition = plan.edition(),
                       .heard = now.real};
-    if (!plan.empty() && !make_room(transfers_, from.link, parts_.options.limits.clients))
+    if (!plan.empty() && !make_room(transfers_, from.link, limits_.clients))
         return acknowledge(from, mission_type, MAV_MISSION_ERROR);
     send_count(transfer, now);
     if (!plan.empty()) transfers_.push_back(std::move(transfer));
@@ -252,11 +252,11 @@ void PlanService::on_list(const Client& from, std::uint8_t mission_type, Moment 
 
 void PlanService::send_count(Transfer& transfer, Moment now) {
     transfer.sent = now.real;
-    parts_.radio.send(transfer.client.link, MissionCount{.target_system = transfer.client.id.system.value,
-                                                         .target_component = transfer.client.id.component.value,
-                                                         .count = transfer.end,
-                                                         .mission_type = number_of(transfer.type),
-                                                         .opaque_id = parts_.flight.plans().of(transfer.type).id()});
+    radio_.send(transfer.client.link, MissionCount{.target_system = transfer.client.id.system.value,
+                                                   .target_component = transfer.client.id.component.value,
+                                                   .count = transfer.end,
+                                                   .mission_type = number_of(transfer.type),
+                                                   .opaque_id = flight_.plans().of(transfer.type).id()});
 }
 
 // Any item at any time, also without MISSION_REQUEST_LIST before: MAVProxy asks for several at once and sends no
@@ -264,7 +264,7 @@ void PlanService::send_count(Transfer& transfer, Moment now) {
 void PlanService::on_request(const Client& from, std::uint16_t seq, std::uint8_t mission_type, bool is_int, Moment now) {
     const auto type = plan_type(mission_type);
     if (!type) return acknowledge(from, mission_type, MAV_MISSION_UNSUPPORTED);
-    const Plan& plan = parts_.flight.plans().of(*type);
+    const Plan& plan = flight_.plans().of(*type);
     Transfer* const transfer = find(from, *type);
     if (transfer != nullptr && transfer->stage == Stage::download) {
         if (transfer->edition != plan.edition()) {
@@ -282,12 +282,12 @@ void PlanService::on_request(const Client& from, std::uint16_t seq, std::uint8_t
 
 // ArduPilot returns the present home as item 0, also if there is no mission.
 bool PlanService::is_home(PlanType type, std::uint16_t seq) const noexcept {
-    return type == PlanType::mission && seq == 0 && parts_.firmware.has_home_in_mission();
+    return type == PlanType::mission && seq == 0 && firmware_.has_home_in_mission();
 }
 
 PlanItem PlanService::stored_item(PlanType type, std::uint16_t seq) const {
-    if (!is_home(type, seq)) return parts_.flight.plans().of(type).items()[seq];
-    const auto& home = parts_.flight.home();
+    if (!is_home(type, seq)) return flight_.plans().of(type).items()[seq];
+    const auto& home = flight_.home();
     if (!home) return {.command = MAV_CMD_NAV_WAYPOINT, .frame = MAV_FRAME_GLOBAL};
     return {.command = MAV_CMD_NAV_WAYPOINT,
             .frame = MAV_FRAME_GLOBAL,
@@ -298,14 +298,14 @@ PlanItem PlanService::stored_item(PlanType type, std::uint16_t seq) const {
 
 void PlanService::send_item(const Client& to, PlanType type, std::uint16_t seq, bool is_int) {
     const PlanItem item = stored_item(type, seq);
-    const bool is_px4 = parts_.firmware.is_px4();
+    const bool is_px4 = firmware_.is_px4();
     const auto fill = [&](auto message) {
         message.target_system = to.id.system.value;
         message.target_component = to.id.component.value;
         message.seq = seq;
-        message.current = type == PlanType::mission && seq == parts_.flight.mission().current ? 1 : 0;
+        message.current = type == PlanType::mission && seq == flight_.mission().current ? 1 : 0;
         message.mission_type = number_of(type);
-        parts_.radio.send(to.link, message);
+        radio_.send(to.link, message);
     };
     if (is_int) return fill(int_form(item, is_px4));
     fill(float_form(item));
@@ -319,7 +319,7 @@ void PlanService::on_ack(const Client& from, ByteView payload, Moment now) {
     Transfer* const transfer = type ? find(from, *type) : nullptr;
     if (transfer == nullptr || transfer->stage == Stage::finished) return;
     if (transfer->stage == Stage::download || message.type == MAV_MISSION_OPERATION_CANCELLED) return drop(from, *type);
-    if (message.type != MAV_MISSION_UNSUPPORTED || !parts_.firmware.is_px4()) return;
+    if (message.type != MAV_MISSION_UNSUPPORTED || !firmware_.is_px4()) return;
     // A client that refuses both forms is asked no faster than one that does not answer.
     if (std::exchange(transfer->was_refused, true)) return;
     transfer->asks_int = !transfer->asks_int;
@@ -343,29 +343,29 @@ void PlanService::on_clear(const Client& from, std::uint8_t mission_type) {
 
 // There is no MISSION_ACK, because clients would take it for that of a transfer. A refusal is a text.
 void PlanService::on_set_current(std::uint16_t seq, Moment now) {
-    if (!parts_.flight.set_current_item(seq, false).is_accepted() && texts_.spend(now.flight))
-        parts_.on_text(Severity::warning, fmt::format("The mission has no item {}", seq));
-    parts_.on_mission_progress();
+    if (!flight_.set_current_item(seq, false).is_accepted() && texts_.spend(now.flight))
+        observer_.on_text(Severity::warning, fmt::format("The mission has no item {}", seq));
+    observer_.on_mission_progress();
 }
 
 void PlanService::on_guided_item(const Client& from, const Request& request) {
-    const double altitude = altitude_of(request.item, parts_.flight);
+    const double altitude = altitude_of(request.item, flight_);
     Outcome outcome = Result::denied;
     if (request.current == current_altitude) {
-        if (std::isfinite(altitude)) outcome = parts_.flight.change_altitude(altitude);
+        if (std::isfinite(altitude)) outcome = flight_.change_altitude(altitude);
     } else if (const auto place = position_of(request.item); place && std::isfinite(altitude)) {
-        outcome = parts_.flight.reposition(
+        outcome = flight_.reposition(
             {.latitude = place->latitude, .longitude = place->longitude, .altitude = altitude, .may_change_mode = false});
     }
     acknowledge(from, request.mission_type, outcome.is_accepted() ? MAV_MISSION_ACCEPTED : MAV_MISSION_ERROR);
 }
 
 void PlanService::acknowledge(const Client& to, std::uint8_t mission_type, std::uint8_t result, std::uint32_t plan_id) {
-    parts_.radio.send(to.link, MissionAck{.target_system = to.id.system.value,
-                                          .target_component = to.id.component.value,
-                                          .type = result,
-                                          .mission_type = mission_type,
-                                          .opaque_id = plan_id});
+    radio_.send(to.link, MissionAck{.target_system = to.id.system.value,
+                                    .target_component = to.id.component.value,
+                                    .type = result,
+                                    .mission_type = mission_type,
+                                    .opaque_id = plan_id});
 }
 
 // --- Time
@@ -377,14 +377,14 @@ void PlanService::pump(Moment now) {
     if (reached_.repeats == 0 || now.flight < reached_.due) return;
     --reached_.repeats;
     reached_.due += reached_interval;
-    parts_.radio.broadcast(MissionItemReached{.seq = reached_.seq});
+    radio_.broadcast(MissionItemReached{.seq = reached_.seq});
 }
 
 bool PlanService::keep_alive(Transfer& transfer, Moment now) {
-    const Patience& patience = patience_of(parts_.firmware);
+    const Patience& patience = patience_of(firmware_);
     if (now.real - transfer.heard >= patience.before_end) {
         if (transfer.stage != Stage::upload) return false;
-        parts_.on_text(Severity::critical, patience.end);
+        observer_.on_text(Severity::critical, patience.end);
         acknowledge(transfer.client, number_of(transfer.type), MAV_MISSION_OPERATION_CANCELLED);
         return false;
     }
@@ -404,8 +404,8 @@ void PlanService::forget(LinkId link) {
 }
 
 void PlanService::report_reached(std::uint16_t seq) {
-    parts_.radio.broadcast(MissionItemReached{.seq = seq});
-    if (parts_.firmware.is_px4()) reached_ = {seq, reached_repeats, parts_.stepped + reached_interval};
+    radio_.broadcast(MissionItemReached{.seq = seq});
+    if (firmware_.is_px4()) reached_ = {seq, reached_repeats, stepped_ + reached_interval};
 }
 
 PlanService::Transfer* PlanService::find(const Client& client, PlanType type) noexcept {
@@ -426,7 +426,7 @@ void PlanService::drop(const Client& client, PlanType type) noexcept {
 }
 
 std::size_t PlanService::limit(PlanType type) const noexcept {
-    const Limits& limits = parts_.options.limits;
+    const Limits& limits = limits_;
     switch (type) {
         case PlanType::mission: return limits.mission_items;
         case PlanType::fence: return limits.fence_items;

@@ -11,18 +11,20 @@
 #include <optional>
 #include <vector>
 
+#include "flight/flight.hpp"
 #include "flight/plan.hpp"
 #include "mavloom/msg/mission_count.hpp"
+#include "sim/radio/radio.hpp"
 #include "sim/service/service.hpp"
 #include "sim/service/text_limit.hpp"
 
 namespace mavloom::sim {
 
-struct Parts;
-
 class PlanService final : public Service {
 public:
-    explicit PlanService(Parts& parts) noexcept : parts_(parts) {}
+    PlanService(const Firmware& firmware, Flight& flight, Radio& radio, FlightObserver& observer, const Limits& limits,
+                const FlightTime& stepped) noexcept
+        : firmware_(firmware), flight_(flight), radio_(radio), observer_(observer), limits_(limits), stepped_(stepped) {}
 
     [[nodiscard]] std::span<const MessageId> handled() const noexcept override;
     void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
@@ -100,7 +102,12 @@ private:
     void drop(const Client& client, PlanType type) noexcept;
     [[nodiscard]] std::size_t limit(PlanType type) const noexcept;
 
-    Parts& parts_;
+    const Firmware& firmware_;
+    Flight& flight_;
+    Radio& radio_;
+    FlightObserver& observer_;
+    const Limits& limits_;
+    const FlightTime& stepped_;
     std::vector<Transfer> transfers_;  // at most Limits::clients
     Reached reached_;
     TextLimit texts_;  // about messages that do not fit

@@ -5,7 +5,6 @@
 
 #include "mavloom/msg/enums/mav_data_stream.hpp"
 #include "mavloom/msg/request_data_stream.hpp"
-#include "sim/parts.hpp"
 
 namespace mavloom::sim {
 
@@ -23,12 +22,12 @@ Nanoseconds group_interval(const msg::RequestDataStream& request) noexcept {
 std::span<const MessageId> DataStreams::handled() const noexcept { return data_stream_ids; }
 
 void DataStreams::receive(const Client& from, MessageId /*id*/, ByteView payload, Moment now) {
-    if (parts_.firmware.is_px4()) return;
+    if (firmware_.is_px4()) return;
     const auto request = msg::RequestDataStream::decode(payload);
     for (const StreamGroup& group : stream_groups()) {
         if (request.req_stream_id != msg::MAV_DATA_STREAM_ALL && request.req_stream_id != group.id) continue;
         for (const MessageId message : group.messages)
-            (void)parts_.streams.set_interval(from.link, message, group_interval(request), now.flight);
+            (void)streams_.set_interval(from.link, message, group_interval(request), now.flight);
     }
 }
 

@@ -4,20 +4,20 @@
 #pragma once
 
 #include "sim/service/service.hpp"
+#include "sim/telemetry/streams.hpp"
 
 namespace mavloom::sim {
 
-struct Parts;
-
 class DataStreams final : public Service {
 public:
-    explicit DataStreams(Parts& parts) noexcept : parts_(parts) {}
+    DataStreams(const Firmware& firmware, Streams& streams) noexcept : firmware_(firmware), streams_(streams) {}
 
     [[nodiscard]] std::span<const MessageId> handled() const noexcept override;
     void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
 
 private:
-    Parts& parts_;
+    const Firmware& firmware_;
+    Streams& streams_;
 };
 
 }  // namespace mavloom::sim
