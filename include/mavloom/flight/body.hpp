@@ -12,7 +12,7 @@
 namespace mavloom::flight {
 
 // Where the rotors are. Their order and directions of rotation are those of PX4's airframe reference.
-enum class Frame : std::uint8_t { quad_x, quad_plus, hexa_x, hexa_plus, octo_x, octo_plus };
+enum class Frame : std::uint8_t { quad_x, quad_plus, hexa_x, hexa_plus, octo_x, octo_plus, octo_cox, dodeca_cox };
 // Sets of numbers: `standard` is Mavloom's own quadrotor; `iris` flies in Gazebo classic, `jmavsim` in jMAVSim.
 enum class BodyPreset : std::uint8_t { standard, iris, jmavsim };
 // `standard` is Mavloom's own plane; `aerosonde` is the example of Beard and McLain, "Small Unmanned Aircraft" (2012).
@@ -20,7 +20,8 @@ enum class PlanePreset : std::uint8_t { standard, aerosonde };
 // `standard` is Mavloom's own rover; `sih` has the size and the speed of the rover in PX4's own simulator.
 enum class RoverPreset : std::uint8_t { standard, sih };
 
-inline constexpr std::string_view frame_names[] = {"quad-x", "quad-plus", "hexa-x", "hexa-plus", "octo-x", "octo-plus"};
+inline constexpr std::string_view frame_names[] = {"quad-x", "quad-plus", "hexa-x",   "hexa-plus",
+                                                   "octo-x", "octo-plus", "octo-cox", "dodeca-cox"};
 inline constexpr std::string_view body_names[] = {"standard", "iris", "jmavsim"};
 inline constexpr std::string_view plane_names[] = {"standard", "aerosonde"};
 inline constexpr std::string_view rover_names[] = {"standard", "sih"};
@@ -31,7 +32,7 @@ struct Rotor {
 };
 
 struct CopterBody {
-    static constexpr std::size_t most_rotors = 8;
+    static constexpr std::size_t most_rotors = 12;  // as PX4 has
 
     double mass_kg = 1.5;
     std::array<double, 3> inertia_kg_m2{0.0368, 0.0368, 0.06};  // about x, y and z

@@ -23,8 +23,13 @@ std::uint8_t Firmware::mav_type() const noexcept {
 }
 
 std::uint8_t Firmware::mav_type_of(const CopterBody& body) const noexcept {
-    if (kind_ != Kind::quad || body.rotor_count == 4) return mav_type();
-    return body.rotor_count == 6 ? msg::MAV_TYPE_HEXAROTOR : msg::MAV_TYPE_OCTOROTOR;
+    if (kind_ != Kind::quad) return mav_type();
+    switch (body.rotor_count) {
+        case 6: return msg::MAV_TYPE_HEXAROTOR;
+        case 8: return msg::MAV_TYPE_OCTOROTOR;
+        case 12: return msg::MAV_TYPE_DODECAROTOR;
+        default: return mav_type();
+    }
 }
 
 const ModeInfo* Firmware::find_mode(std::uint32_t custom_mode) const noexcept {

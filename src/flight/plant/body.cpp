@@ -19,6 +19,11 @@ constexpr RotorPlace four[] = {{45, 1}, {-135, 1}, {-45, -1}, {135, -1}};
 constexpr RotorPlace six[] = {{90, -1}, {-90, 1}, {-30, -1}, {150, 1}, {30, 1}, {-150, -1}};
 constexpr RotorPlace eight[] = {{22.5, -1}, {-157.5, -1}, {67.5, 1},   {157.5, 1},
                                 {-22.5, 1}, {-112.5, 1},  {-67.5, -1}, {112.5, -1}};
+// Two rotors on each arm. PX4 numbers the upper ones of eight first, and the lower ones of twelve.
+constexpr RotorPlace eight_on_four[] = {{45, 1},  {-45, -1}, {-135, 1}, {135, -1},
+                                        {-45, 1}, {45, -1},  {135, 1},  {-135, -1}};
+constexpr RotorPlace twelve_on_six[] = {{90, 1},  {-90, -1}, {-30, 1},  {150, -1}, {30, -1}, {-150, 1},
+                                        {90, -1}, {-90, 1},  {-30, -1}, {150, 1},  {30, 1},  {-150, -1}};
 
 // A plus frame is its X frame, turned until motor 1 is at the right (quad) or in front (others).
 struct Layout {
@@ -33,6 +38,8 @@ Layout layout_of(Frame frame) noexcept {
         case Frame::hexa_plus: return {six, -90};
         case Frame::octo_x: return {eight, 0};
         case Frame::octo_plus: return {eight, -22.5};
+        case Frame::octo_cox: return {eight_on_four, 0};
+        case Frame::dodeca_cox: return {twelve_on_six, 0};
     }
     return {four, 0};
 }

@@ -56,7 +56,7 @@ struct Surroundings {
 };
 
 // The commands to motors and servos, by channel: 0 to 1 for motors, -1 to 1 for servos and motors that can reverse.
-inline constexpr std::size_t most_outputs = 8;
+inline constexpr std::size_t most_outputs = 16;  // as HIL_ACTUATOR_CONTROLS has
 using Outputs = std::array<double, most_outputs>;
 // The channels that a plant has.
 struct Channels {

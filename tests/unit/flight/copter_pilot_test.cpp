@@ -13,7 +13,8 @@ namespace {
 
 std::vector<CopterBody> bodies() {
     std::vector<CopterBody> all{body_of(BodyPreset::iris), body_of(BodyPreset::jmavsim)};
-    for (const Frame frame : {Frame::quad_plus, Frame::hexa_x, Frame::hexa_plus, Frame::octo_x, Frame::octo_plus}) {
+    for (const Frame frame : {Frame::quad_plus, Frame::hexa_x, Frame::hexa_plus, Frame::octo_x, Frame::octo_plus,
+                              Frame::octo_cox, Frame::dodeca_cox}) {
         set_frame(all.emplace_back(), frame, 0.25);
         all.back().mass_kg = 2;
     }

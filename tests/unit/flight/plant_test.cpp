@@ -131,8 +131,9 @@ TEST(PlantTest, MotorsOfTheIrisGetFasterSoonerThanSlower) {
 }
 
 // PX4's tables: CA_ROTORn_PX, _PY and the sign of _KM of its airframes 4001, 6001, 7001 and 8001, and, for the frames
-// without such parameters, positions and directions of its geometries quad_plus and octa_plus. Each row is a motor's
-// place (forward, right) in turns of the arm, and its direction.
+// without such parameters, positions and directions of its geometries quad_plus, octa_plus, octa_cox, and
+// dodeca_bottom_cox before dodeca_top_cox. Each row is a motor's place (forward, right) in turns of the arm, and its
+// direction.
 struct FrameCase {
     Frame frame;
     std::vector<std::array<double, 3>> motors;
@@ -154,7 +155,23 @@ INSTANTIATE_TEST_SUITE_P(
             {{a, b, cw}, {-a, -b, cw}, {b, a, ccw}, {-a, b, ccw}, {a, -b, ccw}, {-b, -a, ccw}, {b, -a, cw}, {-b, a, cw}}},
         FrameCase{
             Frame::octo_plus,
-            {{1, 0, cw}, {-1, 0, cw}, {s, s, ccw}, {-s, s, ccw}, {s, -s, ccw}, {-s, -s, ccw}, {0, -1, cw}, {0, 1, cw}}}));
+            {{1, 0, cw}, {-1, 0, cw}, {s, s, ccw}, {-s, s, ccw}, {s, -s, ccw}, {-s, -s, ccw}, {0, -1, cw}, {0, 1, cw}}},
+        FrameCase{
+            Frame::octo_cox,
+            {{s, s, ccw}, {s, -s, cw}, {-s, -s, ccw}, {-s, s, cw}, {s, -s, ccw}, {s, s, cw}, {-s, s, ccw}, {-s, -s, cw}}},
+        FrameCase{Frame::dodeca_cox,
+                  {{0, 1, ccw},
+                   {0, -1, cw},
+                   {h, -0.5, ccw},
+                   {-h, 0.5, cw},
+                   {h, 0.5, cw},
+                   {-h, -0.5, ccw},
+                   {0, 1, cw},
+                   {0, -1, ccw},
+                   {h, -0.5, cw},
+                   {-h, 0.5, ccw},
+                   {h, 0.5, ccw},
+                   {-h, -0.5, cw}}}));
 
 // A motor in front lifts the nose, one at the right lifts the right side, and a counter-clockwise one turns the vehicle
 // clockwise: moments r x T and k T.

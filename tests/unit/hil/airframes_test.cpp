@@ -54,6 +54,17 @@ TEST(OutputsOfPx4, OfAMulticopterAreItsMotorsInTheirOrder) {
     EXPECT_EQ(outputs[4], 0);
 }
 
+TEST(OutputsOfPx4, AMulticopterOfTwelveMotorsReadsTwelve) {
+    flight::Body body;
+    set_frame(body.copter, flight::Frame::dodeca_cox, 0.5);
+    const auto channels = flight::make_plant(Kind::quad, body)->channels();
+    Controls controls;
+    for (std::size_t i = 0; i < controls.size(); ++i) controls[i] = 0.05f * static_cast<float>(i + 1);
+    const auto outputs = read_outputs(controls, Kind::quad, channels).outputs;
+    for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(outputs[i], static_cast<double>(controls[i]));
+    for (std::size_t i = 12; i < 16; ++i) EXPECT_EQ(outputs[i], 0);
+}
+
 ReadOutputs read_one(Kind kind, std::size_t control, float value) {
     Controls controls{};
     controls[control] = value;

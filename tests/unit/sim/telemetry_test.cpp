@@ -532,9 +532,10 @@ TEST_F(TelemetryInFlight, AllMessagesOfAnInstantAgree) {
     EXPECT_FALSE(rig.vehicle.status().armed) << "it has landed";
 }
 
-// MAV_TYPE_HEXAROTOR is 13, MAV_TYPE_OCTOROTOR 14, MAV_TYPE_QUADROTOR 2.
+// MAV_TYPE_HEXAROTOR is 13, MAV_TYPE_OCTOROTOR 14, MAV_TYPE_DODECAROTOR 29, MAV_TYPE_QUADROTOR 2.
 TEST(TelemetryOfBodies, NamesTheKindOfMulticopter) {
-    for (const auto& [frame, type] : {std::pair{Frame::hexa_x, 13}, {Frame::octo_plus, 14}, {Frame::quad_plus, 2}}) {
+    for (const auto& [frame, type] :
+         {std::pair{Frame::hexa_x, 13}, {Frame::octo_plus, 14}, {Frame::dodeca_cox, 29}, {Frame::quad_plus, 2}}) {
         VehicleOptions options;
         set_frame(options.body.copter, frame, 0.3);
         Rig rig(options);
