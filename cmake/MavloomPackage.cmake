@@ -2,6 +2,7 @@
 # component mavloom_development, and python3-mavloom the component mavloom_python_debian.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_VENDOR "Mavloom")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # which would precede the first line of each component's description
 set(CPACK_PACKAGE_DIRECTORY "${PROJECT_BINARY_DIR}/packages")
 set(CPACK_COMPONENTS_ALL mavloom_runtime mavloom_development)
 if(MAVLOOM_PYTHON)
@@ -27,9 +28,9 @@ if(MAVLOOM_CAN_PACK_RELOCATIONS)  # no symbol names the loader's version
 endif()
 set(CPACK_DEBIAN_MAVLOOM_RUNTIME_PACKAGE_SUGGESTS "python3-mavloom")
 set(CPACK_COMPONENT_MAVLOOM_RUNTIME_DESCRIPTION "MAVLink router, recorder, simulator and viewer
- Mavloom forwards MAVLink between serial lines, UDP, TCP and WebSocket, decodes
- and shows every message, records and replays flights, hands telemetry to other
- programs by shared memory, and simulates vehicles that answer like real ones.")
+Mavloom forwards MAVLink between serial lines, UDP, TCP and WebSocket, decodes
+and shows every message, records and replays flights, hands telemetry to other
+programs by shared memory, and simulates vehicles that answer like real ones.")
 set(control_folder "${PROJECT_SOURCE_DIR}/packaging/debian")
 set(CPACK_DEBIAN_MAVLOOM_RUNTIME_PACKAGE_CONTROL_EXTRA "${control_folder}/postinst" "${control_folder}/prerm"
     "${control_folder}/postrm")
@@ -38,10 +39,11 @@ set(CPACK_DEBIAN_MAVLOOM_DEVELOPMENT_PACKAGE_NAME libmavloom-dev)
 set(CPACK_DEBIAN_MAVLOOM_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_MAVLOOM_DEVELOPMENT_PACKAGE_SHLIBDEPS ON)  # of the code generator
 set(CPACK_DEBIAN_MAVLOOM_DEVELOPMENT_PACKAGE_DEPENDS
-    "libfmt-dev, libexpected-dev, libpugixml-dev, libsodium-dev, libgeographiclib-dev, liblzma-dev, pkg-config")
+    "libfmt-dev, libexpected-dev, libpugixml-dev, libsodium-dev, libtomlplusplus-dev, libgeographiclib-dev, \
+liblzma-dev, pkg-config")
 set(CPACK_COMPONENT_MAVLOOM_DEVELOPMENT_DESCRIPTION "MAVLink routing, framing and simulation: C++ library
- The headers, static libraries and code generator behind the program mavloom,
- for projects that use CMake: find_package(mavloom).")
+The headers, static libraries and code generator behind the program mavloom,
+for projects that use CMake: find_package(mavloom).")
 
 set(CPACK_DEBIAN_MAVLOOM_PYTHON_DEBIAN_PACKAGE_NAME python3-mavloom)
 set(CPACK_DEBIAN_MAVLOOM_PYTHON_DEBIAN_PACKAGE_SECTION python)
@@ -51,8 +53,8 @@ set(CPACK_DEBIAN_MAVLOOM_PYTHON_DEBIAN_PACKAGE_SUGGESTS "python3-pandas, python3
 set(CPACK_DEBIAN_MAVLOOM_PYTHON_DEBIAN_PACKAGE_CONTROL_EXTRA "${control_folder}/python3/postinst"
     "${control_folder}/python3/prerm")
 set(CPACK_COMPONENT_MAVLOOM_PYTHON_DEBIAN_DESCRIPTION "MAVLink telemetry at C++ speed: Python package
- Links, recordings, shared-memory rings and columns of telemetry in Python, and
- mavloom.mavutil, which scripts for pymavlink's mavutil can import instead.")
+Links, recordings, shared-memory rings and columns of telemetry in Python, and
+mavloom.mavutil, which scripts for pymavlink's mavutil can import instead.")
 
 # Debian wants a copyright file and a changelog from each package.
 file(READ "${PROJECT_SOURCE_DIR}/LICENSE" license)

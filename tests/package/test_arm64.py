@@ -6,7 +6,7 @@ import shutil
 import subprocess
 
 import pytest
-from test_package import BUILD, ROOT, call, frames
+from test_package import BUILD, ROOT, build_folder, call, forwarding_router
 
 import harness
 
@@ -21,21 +21,24 @@ pytestmark = [pytest.mark.timeout(5400),
 @pytest.fixture(scope="module")
 def root():
     """Headers and libraries."""
-    folder = BUILD.parent / "arm64-root"
-    call(ROOT / "tools" / "arm64_root.sh", folder)
+    with build_folder("arm64") as build:
+        folder = build.parent / "arm64-root"
+        call(ROOT / "tools" / "arm64_root.sh", folder)
     return folder
 
 
 @pytest.fixture(scope="module")
 def packages(root, tmp_path_factory):
     """{name: path}"""
-    build, made = BUILD.parent / "arm64", tmp_path_factory.mktemp("packages")
-    call("cmake", "--preset", "release", "-S", ROOT, "-B", build, "--toolchain", ROOT / "cmake/toolchains/arm64.cmake",
-         f"-DMAVLOOM_ARM64_ROOT={root}", f"-DMAVLOOM_DIALECTGEN={BUILD}/bin/mavloom_dialectgen",
-         "-DMAVLOOM_TESTS=OFF", "-DMAVLOOM_BENCH=OFF", "-DMAVLOOM_PYTHON=OFF")
-    call("cmake", "--build", build)
-    subprocess.run(["cpack", "--config", build / "CPackConfig.cmake", "-B", made], check=True,
-                   env={**os.environ, "PATH": f"{root}/tools:{os.environ['PATH']}"})
+    made = tmp_path_factory.mktemp("packages")
+    with build_folder("arm64") as build:
+        call("cmake", "--preset", "release", "-S", ROOT, "-B", build, "--toolchain",
+             ROOT / "cmake/toolchains/arm64.cmake", f"-DMAVLOOM_ARM64_ROOT={root}",
+             f"-DMAVLOOM_DIALECTGEN={BUILD}/bin/mavloom_dialectgen", "-DMAVLOOM_TESTS=OFF", "-DMAVLOOM_BENCH=OFF",
+             "-DMAVLOOM_PYTHON=OFF")
+        call("cmake", "--build", build)
+        subprocess.run(["cpack", "--config", build / "CPackConfig.cmake", "-B", made], check=True,
+                       env={**os.environ, "PATH": f"{root}/tools:{os.environ['PATH']}"})
     return {path.name.split("_")[0]: path for path in made.glob("*.deb")}
 
 
@@ -63,21 +66,6 @@ def test_the_program_reads_a_flight_under_qemu(packages, root, tmp_path):
 
 def test_the_router_forwards_under_qemu(packages, root, tmp_path):
     call("dpkg-deb", "--extract", packages["mavloom"], tmp_path)
-    vehicle, station, port = harness.udp_socket(), harness.udp_socket(), harness.free_port()
-    router = harness.Running([QEMU, "-L", root, tmp_path / "usr/bin/mavloom", "route", f"udpin://127.0.0.1:{port}",
-                              f"udpout://127.0.0.1:{station.getsockname()[1]}", "--name", f"arm-{port}"],
-                             env=harness.environment())
-    try:
-        router.wait_output("listening")
-        sent = list(frames.heartbeats(10))
-        for frame in sent:
-            vehicle.sendto(frame, ("127.0.0.1", port))
-        received = b""
-        while len(received) < sum(map(len, sent)):
-            received += station.recv(65536)
-        assert received == b"".join(sent)
+    with forwarding_router(QEMU, "-L", root, tmp_path / "usr/bin/mavloom") as (router, check):
+        check(1)
         assert router.stop().status == 130
-    finally:
-        harness.end([router])
-        vehicle.close()
-        station.close()

@@ -10,7 +10,7 @@ import subprocess
 import sysconfig
 
 import pytest
-from test_package import BUILD, call
+from test_package import BUILD, call, forwarding_router
 from test_wheel import check_use, make_wheel
 
 pytestmark = pytest.mark.timeout(1800)
@@ -46,6 +46,8 @@ def check_files(packages):
     for name in NAMES:
         assert f"/usr/share/doc/{name}/copyright" in files[name]
         assert all(line.split()[1] == "root/root" for line in files[name].values())
+    synopses = {call("dpkg-deb", "--field", path, "Description").splitlines()[0] for path in packages.values()}
+    assert len(synopses) == len(NAMES) and all(len(synopsis) < 80 for synopsis in synopses), synopses
     assert not set.intersection(*({f for f in listed if not f.endswith("/")} for listed in files.values()))
 
 
@@ -88,7 +90,7 @@ def files_of(root):
 
 
 def check_life(root, packages):
-    """Installed, used, installed over itself as in an upgrade, and purged."""
+    """Installed, used, installed over a router that runs, as in an upgrade, and purged."""
     def inside(*command):
         return call("chroot", root, *command)
 
@@ -101,7 +103,11 @@ def check_life(root, packages):
     assert inside("env", "-u", "PYTHONDONTWRITEBYTECODE", "python3", "-c",
                   "import mavloom; print(mavloom.messages.ATTITUDE.__name__)") == "ATTITUDE\n"
     assert re.search(r"^mavloom:", (root / "etc/passwd").read_text(), re.MULTILINE), "the router's user"
-    install()
+    with forwarding_router("chroot", root, "mavloom") as (router, check):
+        check(1)
+        install()
+        assert pathlib.Path(f"/proc/{router.pid}/exe").readlink().name == "mavloom (deleted)"
+        check(2)
     assert files_of(root)
     inside("dpkg", "--purge", "python3-mavloom", "mavloom")
     assert not files_of(root)

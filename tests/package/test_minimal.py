@@ -8,7 +8,7 @@ import socket
 import subprocess
 
 import pytest
-from test_package import BUILD, ROOT, call, frames
+from test_package import ROOT, build_folder, call, frames
 
 import harness
 
@@ -22,10 +22,10 @@ FRAMES = 20_000
 
 @pytest.fixture(scope="module")
 def minimal():
-    folder = BUILD.parent / "minimal"
-    call("cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", "-DMAVLOOM_MINIMAL=ON", "-DCMAKE_UNITY_BUILD=ON",
-         "-DCMAKE_UNITY_BUILD_BATCH_SIZE=12")
-    call("cmake", "--build", folder, "--target", "mavloom_app")
+    with build_folder("minimal") as folder:
+        call("cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", "-DMAVLOOM_MINIMAL=ON", "-DCMAKE_UNITY_BUILD=ON",
+             "-DCMAKE_UNITY_BUILD_BATCH_SIZE=12")
+        call("cmake", "--build", folder, "--target", "mavloom_app")
     return folder / "bin" / "mavloom"
 
 

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Mavloom used by a project of somebody else's (outside/), installed and as a subdirectory."""
+import contextlib
+import fcntl
 import os
 import pathlib
+import socket
 import subprocess
 import sys
 
@@ -10,6 +13,7 @@ import pytest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tests" / "support"), str(ROOT / "tests" / "system")]
 import frames  # noqa: E402
+import harness  # noqa: E402
 import pymavlink_vectors as vectors  # noqa: E402
 
 OUTSIDE = pathlib.Path(__file__).parent / "outside"
@@ -23,6 +27,41 @@ def call(*command) -> str:
                           text=True)
     assert done.returncode == 0, f"{command}:\n{done.stdout[-6000:]}"
     return done.stdout
+
+
+@contextlib.contextmanager
+def build_folder(name):
+    """A folder beside the build's, kept from run to run. Others that want it wait: tests of one file may run in
+    several processes."""
+    folder = BUILD.parent / name
+    folder.mkdir(exist_ok=True)
+    with open(folder / "tests.lock", "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield folder
+
+
+@contextlib.contextmanager
+def forwarding_router(*command):
+    """(a router that `command` starts, a function that checks that it forwards what a system sends)"""
+    vehicle, station, port = harness.udp_socket(), harness.udp_socket(), harness.free_port(socket.SOCK_DGRAM)
+    router = harness.Running([*command, "route", f"udpin://127.0.0.1:{port}",
+                              f"udpout://127.0.0.1:{station.getsockname()[1]}", "--name", f"package-{port}"],
+                             env=harness.environment())
+
+    def check(system):
+        sent, received = list(frames.heartbeats(10, system=system)), b""
+        for frame in sent:
+            vehicle.sendto(frame, ("127.0.0.1", port))
+        while len(received) < sum(map(len, sent)):
+            received += station.recv(65536)
+        assert received == b"".join(sent)
+    try:
+        router.wait_output("listening")
+        yield router, check
+    finally:
+        harness.end([router])
+        vehicle.close()
+        station.close()
 
 
 @pytest.fixture(scope="session")
