@@ -12,6 +12,7 @@ namespace mavloom::view {
 namespace {
 
 constexpr int least_height_with_plot = 12, least_plot = 6, most_plot = 14;
+constexpr int least_width_with_counts = 70;
 constexpr int names_end = 30, then_width = 24;
 
 using message::MessageView;
@@ -77,10 +78,12 @@ int field_lines(int y, int end) noexcept {
 
 void draw_message_head(Grid& grid, int y, const Snapshot& shown, const Row& row) {
     const auto& its = row.its.traffic;
-    auto x = grid.put(1, y, name_of(row.its), Ink::accent);
-    x = grid.put(x + 1, y, fmt::format("#{} of {}", its.id.value, source_text(its.source)), Ink::dim);
-    const auto rate = fmt::format("{} Hz, {} frames, {} ago", hz_text(row.hz), count_text(its.count),
-                                  time_text(shown.now.mono - row.its.heard));
+    auto rate = hz_text(row.hz) + " Hz";
+    if (grid.size().width >= least_width_with_counts)
+        rate += fmt::format(", {} frames, {} ago", count_text(its.count), time_text(shown.now.mono - row.its.heard));
+    const int end = grid.size().width - 1 - width_of(rate) - 1;
+    const auto x = grid.put(1, y, name_of(row.its), Ink::accent, end);
+    grid.put(x + 1, y, fmt::format("#{} of {}", its.id.value, source_text(its.source)), Ink::dim, end);
     grid.put_right(grid.size().width - 1, y, rate, Ink::strong);
 }
 

@@ -32,8 +32,11 @@ char32_t ascii(char32_t c) noexcept {
         case 0x2500: return U'-';
         case 0x2502: return U'|';
         case 0x2026: return U'~';
+        case 0x2191:
         case 0x25b2: return U'^';
+        case 0x2193:
         case 0x25bc: return U'v';
+        case 0x2190: return U'<';
         case 0x25b6:
         case 0x2192: return U'>';
         case 0xb7: return U'-';

@@ -9,6 +9,8 @@ struct Help {
     std::string_view keys, text;
 };
 
+constexpr int narrow_help = 70;  // columns
+
 constexpr std::array live{Help{"\u2191 \u2193 PgUp PgDn Home End", "select a message; j and k, too"},
                           Help{"Enter, Esc", "open the message, and go back"},
                           Help{"Tab, 1 to 5", "the next view; Messages, Vehicles, Links, Routes, Alarms"},
@@ -28,10 +30,11 @@ constexpr std::array recorded{Help{"\u2190 \u2192", "10 seconds back and forward
                               Help{"0 $", "to the begin and to the end"}, Help{"", ""}};
 
 void draw(Grid& grid, int& y, int end, std::span<const Help> lines) {
+    const int text = grid.size().width < narrow_help ? 13 : 25;
     for (const auto& line : lines) {
         if (y >= end) return;
-        grid.put(1, y, line.keys, Ink::accent, 24);
-        grid.put(25, y++, line.text);
+        grid.put(1, y, line.keys, Ink::accent, text - 1);
+        grid.put(text, y++, line.text);
     }
 }
 

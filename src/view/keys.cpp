@@ -32,6 +32,12 @@ void move_selection(State& state, const Snapshot& shown, int by) {
     select_near(state, lines, from + by, by > 0 ? 1 : -1);
 }
 
+bool is_listed(const State& state, const Snapshot& shown) {
+    return std::ranges::any_of(lines_of(shown, state), [&](const Line& line) {
+        return line.row != nullptr && line.row->key() == state.selected;
+    });
+}
+
 void move(State& state, const Snapshot& shown, int by) {
     if (state.is_open) {
         state.field = std::max(0, state.field + by);
@@ -60,8 +66,8 @@ void sort_by_next(State& state, int step) {
 
 void open(State& state, const Snapshot& shown) {
     if (state.tab != Tab::messages || state.is_open) return;
-    if (shown.find(state.selected) == nullptr) move_selection(state, shown, 1);
-    if (shown.find(state.selected) == nullptr) return;
+    if (!is_listed(state, shown)) move_selection(state, shown, 1);
+    if (!is_listed(state, shown)) return;
     state.is_open = true;
     state.field = state.first_field = 0;
 }
@@ -74,7 +80,8 @@ void back(State& state) {
 
 bool can_ask(const State& state, const Snapshot& shown) {
     const auto* const row = shown.find(state.selected);
-    return state.tab == Tab::messages && !shown.playing && row != nullptr && row->its.message != nullptr;
+    const bool is_seen = state.is_open || is_listed(state, shown);
+    return state.tab == Tab::messages && is_seen && !shown.playing && row != nullptr && row->its.message != nullptr;
 }
 
 void begin(State& state, Prompt prompt) {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "mavloom/base/shown.hpp"
@@ -88,14 +89,17 @@ std::string text_of(Column column, const Row& row, const Snapshot& shown, const 
     return its.count < 2 ? "-" : time_text(its.shortest_gap);
 }
 
+// Rates that look the same stand in the order of their names, not of their last digits, which change all the time.
+double steady(double hz) { return hz < 0.95 ? std::round(hz * 100) / 100 : std::round(hz * 10) / 10; }
+
 double value_of(Column column, const Row& row, const Snapshot& shown, const State& state) {
     const auto& its = row.its.traffic;
     switch (column) {
         case Column::name: return 0;
-        case Column::hz: return row.hz;
+        case Column::hz: return steady(row.hz);
         case Column::was: {
             const auto* const then = state.frozen ? state.frozen->find(row.key()) : nullptr;
-            return then == nullptr ? -1 : then->hz;
+            return then == nullptr ? -1 : steady(then->hz);
         }
         case Column::age: return -static_cast<double>(age_of(row.its, shown.now).count());
         case Column::gap_max: return static_cast<double>(its.longest_gap.count());

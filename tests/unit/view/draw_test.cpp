@@ -62,6 +62,21 @@ TEST_F(DrawTest, ASearchLeavesWhatMatches) {
     EXPECT_THAT(drawn({80, 24}), Not(HasSubstr("HEARTBEAT")));
 }
 
+TEST_F(DrawTest, OnlyWhatASearchShowsIsOpened) {
+    press({.code = Key::Code::end});
+    type(U"/atti");
+    press({.code = Key::Code::enter});
+    press({.code = Key::Code::enter});
+    EXPECT_THAT(drawn({80, 24}), HasSubstr("ATTITUDE #30 of 1/1"));
+    EXPECT_THAT(drawn({40, 10}), HasSubstr("ATTITUDE #30 of 1/1            10.0 Hz"));
+}
+
+TEST_F(DrawTest, HelpAndHintsNeedNoUtf8AndNoWideTerminal) {
+    type(U"?");
+    EXPECT_THAT(drawn({40, 10}), HasSubstr(" Enter, Esc  open the message, and go ba"));
+    EXPECT_THAT(drawn({40, 10}), HasSubstr(" ^ v PgUp"));
+}
+
 TEST_F(DrawTest, AMessageOpensToItsFields) {
     press({.code = Key::Code::down});
     press({.code = Key::Code::enter});
