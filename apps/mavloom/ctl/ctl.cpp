@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "ctl/actions.hpp"
 #include "ctl/answers.hpp"
 #include "ctl/wait.hpp"
 #include "mavloom/base/durations.hpp"
@@ -241,6 +242,11 @@ Exit ctl(const CtlOptions& options) {
 }
 
 }  // namespace
+
+std::vector<std::string> ctl_actions() {
+    const auto names = action_names();
+    return {names.begin(), names.end()};
+}
 
 Run declare_ctl(Arguments command, const Common&) {
     auto options = std::make_shared<CtlOptions>();

@@ -13,7 +13,7 @@ namespace {
 struct Place {
     std::vector<const DeclaredCommand*> commands;  // from the program to the innermost
     const DeclaredOption* open = nullptr;          // the option that takes the next word
-    std::size_t positionals = 0;                   // that were given to the innermost
+    std::vector<std::string> positionals;          // that were given to the innermost
     bool only_positionals = false;                 // after "--"
 
     [[nodiscard]] const DeclaredCommand& innermost() const { return *commands.back(); }
@@ -37,9 +37,9 @@ void take(Place& place, const std::string& word) {
     if (!place.only_positionals && word.starts_with('-')) return take_option(place, word);
     const auto& subs = place.innermost().subcommands;
     const auto sub = std::ranges::find(subs, word, &DeclaredCommand::name);
-    if (sub == subs.end()) return void(++place.positionals);
+    if (sub == subs.end()) return void(place.positionals.push_back(word));
     place.commands.push_back(&*sub);
-    place.positionals = 0;
+    place.positionals.clear();
 }
 
 // Returns the positional argument that takes the next word, or null. The last one may take several words.
@@ -49,7 +49,7 @@ const DeclaredOption* next_positional(const Place& place) {
     for (const auto& option : place.innermost().options) {
         if (!option.is_positional) continue;
         last = &option;
-        if (i++ == place.positionals) return last;
+        if (i++ == place.positionals.size()) return last;
     }
     return last != nullptr && last->is_repeatable ? last : nullptr;
 }
@@ -72,6 +72,13 @@ void add_messages(Candidates& out, const std::string& typed, const std::string& 
     add(out, vocabulary.messages(), comma == std::string::npos ? "" : typed.substr(0, comma + 1), after);
 }
 
+// "ATTITUDE.ro"
+void add_fields(Candidates& out, const std::string& typed, const Vocabulary& vocabulary) {
+    const auto dot = typed.find('.');
+    if (dot == std::string::npos) return add_messages(out, typed, ".", vocabulary);
+    add(out, vocabulary.fields(typed.substr(0, dot)), typed.substr(0, dot + 1), "=");
+}
+
 bool is_in(const Place& place, std::string_view command) {
     return std::ranges::find(place.commands, command, &DeclaredCommand::name) != place.commands.end();
 }
@@ -82,6 +89,14 @@ void add_names(Candidates& out, const Place& place, const DeclaredOption& option
     if (option.is_positional && (is_in(place, "ctl") || is_in(place, "stat"))) add(out, vocabulary.running());
 }
 
+// The action of `ctl` decides.
+void add_arguments(Candidates& out, const Place& place, const Vocabulary& vocabulary) {
+    if (!is_in(place, "ctl") || place.positionals.size() != 2) return;
+    const auto &program = place.positionals.front(), &action = place.positionals.back();
+    if (action == "wait") add(out, {"ready", "armed", "disarmed", "landed", "alt"});
+    if (action == "remove" || action == "fault") add(out, vocabulary.links(program));
+}
+
 // Adds the words that fit the placeholder of the option.
 void add_values(Candidates& out, const Place& place, const DeclaredOption& option, const std::string& typed,
                 const Vocabulary& vocabulary) {
@@ -89,10 +104,12 @@ void add_values(Candidates& out, const Place& place, const DeclaredOption& optio
     if (!option.choices.empty()) return add(out, option.choices);
     if (placeholder == "ENDPOINT" || placeholder == "SOURCE") return add_endpoints(out, vocabulary);
     if (placeholder == "MESSAGE:HZ") return add_messages(out, typed, ":", vocabulary);
-    if (placeholder == "MESSAGE.FIELD=VALUE") return add_messages(out, typed, ".", vocabulary);
+    if (placeholder == "MESSAGE.FIELD=VALUE") return add_fields(out, typed, vocabulary);
     if (placeholder.find("MESSAGE") != placeholder.npos || placeholder == "NAMES")
         return add_messages(out, typed, "", vocabulary);
     if (placeholder == "NAME") return add_names(out, place, option, vocabulary);
+    if (placeholder == "ACTION") return add(out, vocabulary.actions());
+    if (placeholder == "ARGUMENT") return add_arguments(out, place, vocabulary);
     if (placeholder == "COMMAND")
         for (const auto& command : place.commands.front()->subcommands)
             out.all.push_back({command.name, command.description});

@@ -21,7 +21,9 @@ struct Candidates {
 
 // Words that depend on the machine or on the dialect. Called only if they are wanted.
 struct Vocabulary {
-    std::vector<std::string> (*messages)(), (*rings)(), (*running)();
+    std::vector<std::string> (*messages)(), (*rings)(), (*running)(), (*actions)();
+    std::vector<std::string> (*fields)(const std::string& message);
+    std::vector<std::string> (*links)(const std::string& program);  // of a running router or simulator
 };
 
 // Continuations of the last of `words`, which may be empty; the words before it are complete, without "mavloom".

@@ -3,8 +3,13 @@
 // know no option by themselves.
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+#include <set>
+
 #include "command.hpp"
+#include "ctl/actions.hpp"
 #include "manual/candidates.hpp"
+#include "mavloom/control/control.hpp"
 #include "mavloom/dialect/dialect.hpp"
 #include "mavloom/shm/ring_info.hpp"
 #include "output.hpp"
@@ -81,8 +86,29 @@ std::vector<std::string> message_names() {
     return names;
 }
 
+std::vector<std::string> field_names(const std::string& message) {
+    std::vector<std::string> names;
+    if (const auto* const found = dialect::default_dialect().find(message))
+        for (const auto& field : found->fields) names.emplace_back(field.name);
+    return names;
+}
+
+// Of the endpoints, too, which `ctl NAME remove` takes.
+std::vector<std::string> link_names(const std::string& program) {
+    constexpr std::chrono::milliseconds patience{300};
+    const auto lines = control::send_request(program, R"({"cmd":"links"})", patience);
+    std::set<std::string> names;
+    for (const auto& line : lines.value_or(std::vector<std::string>()))
+        for (const auto* const key : {"link", "endpoint"})
+            names.insert(nlohmann::json::parse(line, nullptr, false).value(key, ""));
+    names.erase("");
+    return {names.begin(), names.end()};
+}
+
 Exit print_words(const Arguments& self, const std::vector<std::string>& words) {
-    const auto found = candidates(self.program(), words, {message_names, shm::ring_names, shm::counter_page_names});
+    const auto found = candidates(
+        self.program(), words,
+        {message_names, shm::ring_names, shm::counter_page_names, ctl_actions, field_names, link_names});
     std::string text;
     for (const auto& candidate : found.all)
         text += candidate.word + (candidate.description.empty() ? "" : "\t" + candidate.description) + "\n";

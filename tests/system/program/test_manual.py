@@ -61,6 +61,10 @@ def test_what_may_stand_next(run):
     assert words(run, "listen", "--st") == ["--stats", "--stats-only"]
     assert words(run, "listen", "--only", "ATTITUDE,HEART") == ["ATTITUDE,HEARTBEAT"]
     assert words(run, "listen", "--only=HEARTB") == ["--only=HEARTBEAT"]
+    assert words(run, "relay", "--set", "ATTITUDE.pitch") == ["ATTITUDE.pitch=", "ATTITUDE.pitchspeed="]
+    assert words(run, "ctl", "any", "ta") == ["takeoff"]
+    assert words(run, "ctl", "any", "wait", "a") == ["armed", "alt"]
+    assert words(run, "ctl", "any", "remove", "") == [], "it does not run"
     assert words(run, "route", "udpi") == ["udpin://", ":files"]
     assert words(run, "record", "-o", "") == [":files"]
     assert words(run, "manual", "m") == ["mdoc", "markdown"]
@@ -70,10 +74,12 @@ def test_what_may_stand_next(run):
 
 def test_running_programs_and_rings_are_offered(run, spawn, udp_port):
     name = f"complete-{os.getpid()}"
-    spawn("route", f"udpin://127.0.0.1:{udp_port()}", "--name", name, "--ring", name)
+    links = f"udpin://127.0.0.1:{udp_port()}", "udpout://127.0.0.1:9?name=tablet"
+    spawn("route", *links, "--name", name, "--ring", name)
     harness.wait_for(lambda: words(run, "ctl", name) == [name], what="the router's counter page")
     harness.wait_for(lambda: words(run, "shm", "stat", name[:-1]) == [name], what="its ring")
     assert f"shm://{name}" in words(run, "listen", "shm://comp")
+    assert words(run, "ctl", name, "remove", "ta") == ["tablet"]
 
 
 @pytest.fixture
