@@ -97,12 +97,12 @@ void add_commands(std::string& text, const DeclaredCommand& command, bool have_p
 std::string manual_page(const DeclaredCommand& program, const DeclaredCommand* command, const std::string& date) {
     const auto& shown = command == nullptr ? program : *command;
     const auto name = command == nullptr ? std::string("mavloom") : "mavloom-" + command->name;
+    const auto about = literal(shown.description.substr(0, shown.description.find_last_not_of('.') + 1));
     std::string text = fmt::format(".Dd {}\n.Dt {} 1\n.Os Mavloom {}\n.Sh NAME\n.Nm {}\n.Nd {}\n.Sh SYNOPSIS\n", date,
-                                   upper(name), version(), name, literal(shown.description));
+                                   upper(name), version(), name, about);
     text += command == nullptr ? ".Nm mavloom\n" : fmt::format(".Nm mavloom {}\n", command->name);
     add_synopsis(text, shown);
-    text += fmt::format(".Sh DESCRIPTION\n{}{}.\n", static_cast<char>(std::toupper(shown.description.front())),
-                        literal(std::string_view(shown.description).substr(1)));
+    text += fmt::format(".Sh DESCRIPTION\n{}{}.\n", static_cast<char>(std::toupper(about.front())), about.substr(1));
     add_options(text, shown);
     add_commands(text, shown, command == nullptr);
     add_footer(text, shown.footer);
