@@ -6,6 +6,7 @@ import re
 import time
 
 import frames
+import harness
 import pytest
 from pymavlink import mavutil
 
@@ -175,6 +176,26 @@ def test_without_fma_only_last_digits_differ(run, tmp_path):
                 assert value == pytest.approx(other_value, rel=1e-5, abs=1e-6, nan_ok=True)
             else:
                 assert value == other_value or abs(value - other_value) <= 1
+
+
+@pytest.mark.short
+def test_sanitized_and_released_programs_fly_the_same_bytes(run, tmp_path, program):
+    """Compilers and their options do not change a flight. `./run test` builds one program, `./run sanitize` the other.
+    """
+    (tmp_path / "x.toml").write_text(FLIGHT + '[[vehicle]]\nkind = "plane"\n[[vehicle]]\nkind = "rover"\n')
+    other = harness.ROOT / "build/release/bin/mavloom"
+    if not other.exists() or other.samefile(program) or version(other) != version(program):
+        pytest.skip("there is no other program of this version")
+    recordings = []
+    for which in (program, other):
+        recordings.append(tmp_path / f"{len(recordings)}.tlog")
+        done = harness.Running([which, "sim", tmp_path / "x.toml", "--record", recordings[-1]]).wait()
+        assert done.status == 0, done
+    assert recordings[0].read_bytes() == recordings[1].read_bytes()
+
+
+def version(program):
+    return harness.Running([program, "--version"]).wait().stdout
 
 
 # ---- sessions that are repeated
