@@ -78,7 +78,7 @@ private:
         require(wire::frame_length(frame.bytes()) == frame.size());
         if (frame.id() != msg::HilSensor::id) return;
         const auto sensor = msg::HilSensor::decode(frame.payload());
-        require(sensor.time_usec > time_us_);
+        require(sensor.id_ == 0 ? sensor.time_usec > time_us_ : sensor.time_usec == time_us_);
         time_us_ = sensor.time_usec;
         for (const float value : {sensor.xacc, sensor.yacc, sensor.zacc, sensor.xgyro, sensor.ygyro, sensor.zgyro,
                                   sensor.xmag, sensor.abs_pressure, sensor.temperature})
