@@ -32,13 +32,14 @@ _mavloom() {
   fi
   while IFS= read -r line; do
     if [[ $line == :files ]]; then
-      compopt -o filenames
+      [[ ${#COMPREPLY[@]} == 0 ]] && compopt -o filenames
       while IFS= read -r line; do COMPREPLY+=("$line"); done < <(compgen -f -- "$cur")
     else
       COMPREPLY+=("${line%%$'\t'*}")
     fi
   done < <(mavloom completion words -- "${words[@]:1:cword}" 2>/dev/null)
   [[ ${#COMPREPLY[@]} == 1 && ${COMPREPLY[0]} == *[:/=.,] ]] && compopt -o nospace
+  if [[ $cur == *=* && $COMP_WORDBREAKS == *=* ]]; then COMPREPLY=("${COMPREPLY[@]#"${cur%"${cur##*=}"}"}"); fi
   if declare -F __ltrim_colon_completions >/dev/null; then __ltrim_colon_completions "$cur"; fi
 }
 complete -F _mavloom mavloom
