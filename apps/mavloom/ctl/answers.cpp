@@ -51,6 +51,12 @@ void print_vehicle(fmt::appender out, const Json& o) {
                    o.value("armed", false) ? "armed" : "disarmed", o.value("relative_alt_m", 0.0),
                    o.value("battery_percent", 0.0));
 }
+void print_hil(fmt::appender out, const Json& o) {
+    fmt::format_to(out, "vehicle {} flown by the autopilot at {}: {}, {}, {:.1f} m above home\n  {}\n",
+                   o.value("system", 0), o.value("port", ""), o.value("state", ""),
+                   o.value("armed", false) ? "armed" : "disarmed", o.value("relative_alt_m", 0.0),
+                   counts_of(o, {"system"}));
+}
 void print_endpoint(fmt::appender out, const Json& o) {
     const auto odd = counts_of(o, {"rcvbuf"});
     if (!odd.empty()) fmt::format_to(out, "endpoint {}: {}\n", o.value("endpoint", ""), odd);
@@ -109,13 +115,19 @@ void print_unknown_target(fmt::appender out, const Json& o) {
 
 std::string paragraphs_of(const Lines& lines) {
     using Print = void (*)(fmt::appender, const Json&);
-    static const std::map<std::string_view, Print> prints{
-        {"router", print_program},      {"endpoint", print_endpoint},
-        {"sim", print_program},         {"vehicle", print_vehicle},
-        {"gone", print_gone},           {"link", print_link},
-        {"page", print_page},           {"others", print_others},
-        {"source", print_source},       {"message", print_message_rate},
-        {"recording", print_recording}, {"unknown_target", print_unknown_target}};
+    static const std::map<std::string_view, Print> prints{{"router", print_program},
+                                                          {"endpoint", print_endpoint},
+                                                          {"sim", print_program},
+                                                          {"vehicle", print_vehicle},
+                                                          {"gone", print_gone},
+                                                          {"link", print_link},
+                                                          {"page", print_page},
+                                                          {"others", print_others},
+                                                          {"hil", print_hil},
+                                                          {"source", print_source},
+                                                          {"message", print_message_rate},
+                                                          {"recording", print_recording},
+                                                          {"unknown_target", print_unknown_target}};
     fmt::memory_buffer text;
     for (const auto& line : lines) {
         const auto object = Json::parse(line, nullptr, false);

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 #include <numbers>
+#include <system_error>
 
 #include "mavloom/base/shown.hpp"
 #include "mavloom/base/suggest.hpp"
@@ -429,6 +431,25 @@ SetupResult<void> check_endpoints(const Scenario& scenario, const Document& docu
     return config::check_key_files(all, document.file);
 }
 
+bool are_one_file(const std::string& one, const std::string& other) {
+    std::error_code ignored;
+    return !one.empty() && !other.empty() &&
+           (one == other || std::filesystem::equivalent(one, other, ignored) ||
+            std::filesystem::absolute(one, ignored).lexically_normal() ==
+                std::filesystem::absolute(other, ignored).lexically_normal());
+}
+
+// Each of them would destroy the other.
+SetupResult<void> check_recordings(const Scenario& s) {
+    const auto wrong = [](std::string_view one, std::string_view other, const std::string& path) {
+        return setup_error(SetupCode::usage, fmt::format("{} and {} are the same file: {}", one, other, path));
+    };
+    if (are_one_file(s.recording, s.input_recording)) return wrong("record", "record_input", s.recording);
+    if (are_one_file(s.input, s.recording)) return wrong("record", "replay_input", s.input);
+    if (are_one_file(s.input, s.input_recording)) return wrong("record_input", "replay_input", s.input);
+    return {};
+}
+
 }  // namespace
 
 SetupResult<void> check_scenario(const Scenario& scenario, const Document& document) {
@@ -438,6 +459,7 @@ SetupResult<void> check_scenario(const Scenario& scenario, const Document& docum
         return setup_error(SetupCode::usage,
                            "replay_input needs the start_time of the session that was recorded, which it stated at its "
                            "end: --start-time 2026-11-29T12:00:00Z");
+    if (auto good = check_recordings(scenario); !good) return good;
     if (auto good = check_endpoints(scenario, document); !good) return good;
     return check_parameters(scenario, document);
 }

@@ -242,6 +242,9 @@ def test_without_its_input_the_session_is_another_one(sim, run, tmp_path):
     (["--replay-input", "in.tlog", "--for", "1s"], 2, "needs the start_time"),
     (["--replay-input", "no.tlog", "--for", "1s", "--start-time", "2026-11-29T12:00:00Z"], 3, "no.tlog"),
     (["--record-input", "in.bin"], 2, "ends in .tlog"),
+    (["--record", "a.tlog", "--record-input", "./a.tlog"], 2, "record and record_input are the same file: a.tlog"),
+    (["--replay-input", "a.tlog", "--record", "a.tlog", "--start-time", "2026-01-01T00:00:00Z"], 2,
+     "record and replay_input are the same file: a.tlog"),
 ])
 def test_wrong_use_of_sessions(run, tmp_path, arguments, status, text):
     done = run("sim", *arguments, cwd=tmp_path)

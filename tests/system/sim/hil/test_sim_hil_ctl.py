@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """`mavloom ctl` at the simulator for PX4, while a stand-in holds its place in the air."""
 import json
+import re
 
 import pytest
 
@@ -67,6 +68,13 @@ def test_a_heavier_vehicle_sinks_and_its_pilot_brings_it_back(holding):
     assert moved_by(simulator, 0.8)["relative_alt_m"] < height - 0.1
     simulator.ctl("resume")
     harness.wait_for(lambda: simulator.hil()["relative_alt_m"] > 2.8, what="its pilot to lift it again")
+
+
+def test_stat_names_the_autopilot_and_its_steps(holding, run):
+    simulator, _ = holding
+    said = run("stat", simulator.name).stdout
+    assert re.search(rf"^vehicle 1 flown by the autopilot at tcpin://127.0.0.1:{simulator.hil_port}: lock-step, armed, "
+                     r"[0-9.]+ m above home\n  steps \d+, answered \d+", said, re.MULTILINE), said
 
 
 def test_a_motor_fails_and_the_vehicle_falls(holding, run):
