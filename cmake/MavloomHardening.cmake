@@ -8,10 +8,14 @@ set(MAVLOOM_HARDENED_CONFIGS Release RelWithDebInfo MinSizeRel)
 list(JOIN MAVLOOM_HARDENED_CONFIGS "," configs)
 set(is_hardened "$<CONFIG:${configs}>")
 
-# Locals that are not initialized read as 0. A call through a pointer must arrive at an endbr64 (x86-64) or a bti
-# (64-bit Arm, where return addresses are signed, too).
-foreach(flag IN ITEMS -fstack-protector-strong -ftrivial-auto-var-init=zero -fcf-protection
-                      -mbranch-protection=standard)
+# Locals that are not initialized read as 0, but not with GCC: its version 12 also clears the padding of locals, and
+# misses it behind an array of structs. It then overwrites other members with zeros. A call through a pointer must
+# arrive at an endbr64 (x86-64) or a bti (64-bit Arm, where return addresses are signed, too).
+set(hardening -fstack-protector-strong -fcf-protection -mbranch-protection=standard)
+if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  list(APPEND hardening -ftrivial-auto-var-init=zero)
+endif()
+foreach(flag IN LISTS hardening)
   string(MAKE_C_IDENTIFIER "MAVLOOM_HAS${flag}" has_flag)
   check_cxx_compiler_flag(${flag} ${has_flag})
   if(${has_flag})
