@@ -9,7 +9,7 @@ namespace mavloom::http {
 
 namespace {
 
-constexpr std::string_view scheme = "Bearer ", key = "token=";
+constexpr std::string_view scheme = "Bearer ", token_key = "token=";
 
 // Calls `each` with the terms of a list.
 template <class Each>
@@ -52,7 +52,7 @@ bool has_token(const TokenPlaces& places, std::string_view token, std::uint16_t 
 std::string_view token_in(std::string_view query) noexcept {
     std::string_view value;
     for_each_term(query, '&', [&](std::string_view term) {
-        if (value.empty() && term.starts_with(key)) value = term.substr(key.size());
+        if (value.empty() && term.starts_with(token_key)) value = term.substr(token_key.size());
     });
     return value;
 }
@@ -60,7 +60,7 @@ std::string_view token_in(std::string_view query) noexcept {
 std::string query_without_token(std::string_view query) {
     std::string rest;
     for_each_term(query, '&', [&](std::string_view term) {
-        if (term.starts_with(key)) return;
+        if (term.starts_with(token_key)) return;
         if (!rest.empty()) rest += '&';
         rest += term;
     });

@@ -13,7 +13,7 @@ namespace {
 struct Place {
     std::vector<const DeclaredCommand*> commands;  // from the program to the innermost
     const DeclaredOption* open = nullptr;          // the option that takes the next word
-    std::vector<std::string> positionals;          // that were given to the innermost
+    std::vector<std::string> positionals{};        // that were given to the innermost
     bool only_positionals = false;                 // after "--"
 
     [[nodiscard]] const DeclaredCommand& innermost() const { return *commands.back(); }
