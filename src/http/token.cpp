@@ -9,7 +9,7 @@ namespace mavloom::http {
 
 namespace {
 
-constexpr std::string_view scheme = "Bearer ", token_key = "token=";
+constexpr std::string_view bearer = "Bearer ", token_key = "token=";
 
 // Calls `each` with the terms of a list.
 template <class Each>
@@ -43,8 +43,8 @@ bool is_same_secret(std::string_view one, std::string_view other) noexcept {
 std::string token_cookie_name(std::uint16_t port) { return fmt::format("mavloom-{}", port); }
 
 bool has_token(const TokenPlaces& places, std::string_view token, std::uint16_t port) {
-    const bool is_bearer = same_letters(places.authorization.substr(0, scheme.size()), scheme);
-    return (is_bearer && is_same_secret(trimmed(places.authorization.substr(scheme.size())), token)) ||
+    const bool is_bearer = same_letters(places.authorization.substr(0, bearer.size()), bearer);
+    return (is_bearer && is_same_secret(trimmed(places.authorization.substr(bearer.size())), token)) ||
            is_same_secret(token_in(places.query), token) ||
            is_same_secret(value_of_cookie(places.cookie, token_cookie_name(port)), token);
 }
