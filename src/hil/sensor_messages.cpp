@@ -48,8 +48,7 @@ double dither(unsigned sample, double digit) noexcept { return sample % 2 == 0 ?
 
 // In cm/s. A pitot tube measures the air from ahead, and its instrument assumes the density at sea level.
 std::uint16_t indicated_airspeed(double ahead, double air_density) noexcept {
-    constexpr double sea_level_density = 1.225;  // kg/m^3
-    return saturated<std::uint16_t>(std::max(ahead, 0.0) * std::sqrt(air_density / sea_level_density) * 100);
+    return saturated<std::uint16_t>(std::max(ahead, 0.0) * std::sqrt(air_density / flight::sea_level_density) * 100);
 }
 
 std::uint32_t fields_if(bool sampled, Failure failure, std::uint32_t fields) noexcept {

@@ -89,7 +89,7 @@ void add_names(Candidates& out, const Place& place, const DeclaredOption& option
     if (option.is_positional && (is_in(place, "ctl") || is_in(place, "stat"))) add(out, vocabulary.running());
 }
 
-// The action of `ctl` decides.
+// Adds the words that may follow the action of `ctl`.
 void add_arguments(Candidates& out, const Place& place, const Vocabulary& vocabulary) {
     if (!is_in(place, "ctl") || place.positionals.size() != 2) return;
     const auto &program = place.positionals.front(), &action = place.positionals.back();

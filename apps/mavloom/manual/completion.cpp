@@ -99,9 +99,11 @@ std::vector<std::string> link_names(const std::string& program) {
     constexpr std::chrono::milliseconds patience{300};
     const auto lines = control::send_request(program, R"({"cmd":"links"})", patience);
     std::set<std::string> names;
-    for (const auto& line : lines.value_or(std::vector<std::string>()))
-        for (const auto* const key : {"link", "endpoint"})
-            names.insert(nlohmann::json::parse(line, nullptr, false).value(key, ""));
+    for (const auto& line : lines.value_or(std::vector<std::string>())) {
+        const auto object = nlohmann::json::parse(line, nullptr, false);
+        if (!object.is_object()) continue;
+        for (const auto* const key : {"link", "endpoint"}) names.insert(object.value(key, ""));
+    }
     names.erase("");
     return {names.begin(), names.end()};
 }

@@ -11,6 +11,8 @@
 
 namespace mavloom::flight {
 
+inline constexpr double sea_level_density = 1.225;  // kg/m^3, of the standard atmosphere
+
 // Where the rotors are. Their order and directions of rotation are those of PX4's airframe reference.
 enum class Frame : std::uint8_t { quad_x, quad_plus, hexa_x, hexa_plus, octo_x, octo_plus, octo_cox, dodeca_cox };
 // Sets of numbers: `standard` is Mavloom's own quadrotor; `iris` flies in Gazebo classic, `jmavsim` in jMAVSim.
@@ -84,7 +86,7 @@ struct RoverBody {
     double steering_lag_s = 0.15;
 };
 
-// The one of the vehicle's kind counts.
+// Only the body of the vehicle's kind is used.
 struct Body {
     CopterBody copter{};
     PlaneBody plane{};
@@ -94,7 +96,9 @@ struct Body {
 [[nodiscard]] CopterBody body_of(BodyPreset preset);
 [[nodiscard]] PlaneBody body_of(PlanePreset preset);
 [[nodiscard]] RoverBody body_of(RoverPreset preset);
-// The least airspeed of level flight at sea level, m/s.
+// The highest lift coefficient: that at the stall.
+[[nodiscard]] double highest_lift(const PlaneBody& body) noexcept;
+// The lowest airspeed at which the plane can fly level at sea level, in m/s.
 [[nodiscard]] double stall_speed(const PlaneBody& body) noexcept;
 // Puts the rotors on a circle around the centre of mass.
 void set_frame(CopterBody& body, Frame frame, double arm_m);

@@ -8,8 +8,8 @@
 
 namespace mavloom::http {
 
-// The content of one gzip member (RFC 1952) whose header has no optional parts, as `gzip -n` writes it. Nothing if the
-// bytes have another form, are cut or are damaged.
+// Returns the content of one gzip member (RFC 1952). Its header must have no optional parts, as `gzip -n` writes it.
+// Returns nothing if the bytes have another form, are cut or are damaged.
 [[nodiscard]] std::optional<std::string> gunzip(std::string_view compressed);
 
 }  // namespace mavloom::http

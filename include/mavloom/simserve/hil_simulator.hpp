@@ -57,7 +57,8 @@ public:
     HilSimulator& operator=(const HilSimulator&) = delete;
     ~HilSimulator() override;
 
-    // Adds a vehicle and opens the endpoint of its autopilot. A port in use is an error. `faults` by their times.
+    // Adds a vehicle and opens the endpoint of its autopilot. A port in use is an error. `faults` are in the order of
+    // their times.
     [[nodiscard]] SetupResult<void> add(const flight::VehicleOptions& vehicle, const endpoint::Endpoint& endpoint,
                                         std::vector<hil::TimedFault> faults = {});
 

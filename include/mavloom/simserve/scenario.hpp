@@ -59,7 +59,7 @@ struct Scenario {
     [[nodiscard]] std::string control_name() const;
     // The endpoint of each vehicle's autopilot, in the order of `each_vehicle`: the ports follow each other.
     [[nodiscard]] std::vector<endpoint::Endpoint> hil_endpoints() const;
-    // The faults of a vehicle with `hil`, by their times.
+    // The faults that a vehicle with `hil` gets, in the order of their times.
     [[nodiscard]] std::vector<hil::TimedFault> hil_faults(SystemId system) const;
     // See SimulatorOptions.
     [[nodiscard]] bool is_repeatable() const noexcept { return !input_recording.empty() || !input.empty(); }

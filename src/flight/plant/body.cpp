@@ -123,10 +123,12 @@ CopterBody body_of(BodyPreset preset) {
 PlaneBody body_of(PlanePreset preset) { return preset == PlanePreset::aerosonde ? aerosonde() : PlaneBody{}; }
 RoverBody body_of(RoverPreset preset) { return preset == RoverPreset::sih ? sih() : RoverBody{}; }
 
+double highest_lift(const PlaneBody& body) noexcept {
+    return body.lift_zero + body.lift_slope * to_radians(body.stall_deg);
+}
+
 double stall_speed(const PlaneBody& body) noexcept {
-    constexpr double sea_level_density = 1.225;  // kg/m^3
-    const double most_lift = body.lift_zero + body.lift_slope * to_radians(body.stall_deg);
-    return std::sqrt(2 * body.mass_kg * gravity / (sea_level_density * body.area_m2 * most_lift));
+    return std::sqrt(2 * body.mass_kg * gravity / (sea_level_density * body.area_m2 * highest_lift(body)));
 }
 
 void set_frame(CopterBody& body, Frame frame, double arm_m) {

@@ -8,8 +8,6 @@ namespace mavloom::flight {
 
 namespace {
 
-constexpr double sea_level_density = 1.225;  // kg/m^3
-
 // Legs, per mass: a spring with damping that carries the weight at height 0, and friction.
 constexpr double leg_stiffness = 40 * 40;               // 1/s^2
 constexpr double leg_damping = 2 * 0.7 * 40;            // 1/s

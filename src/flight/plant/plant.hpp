@@ -46,10 +46,10 @@ struct Kinematics {
 
 // Air, ground and supply around the vehicle during one step.
 struct Surroundings {
-    Vector3 wind = Vector3::Zero();  // m/s, in the direction in which the air moves
-    double ground = 0;               // `position.z` of the ground below
-    double air_density = 1.225;      // kg/m^3
-    double supply = 1;               // battery voltage relative to full; scales the thrust
+    Vector3 wind = Vector3::Zero();          // m/s, in the direction in which the air moves
+    double ground = 0;                       // `position.z` of the ground below
+    double air_density = sea_level_density;  // kg/m^3
+    double supply = 1;                       // battery voltage relative to full; scales the thrust
     // Pushes and turns the vehicle from outside: m/s^2 in the local frame, rad/s^2 in the body frame. A rover's wheels
     // hold it sideways, and against turns.
     Vector3 push = Vector3::Zero(), turn = Vector3::Zero();

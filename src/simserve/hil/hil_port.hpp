@@ -20,7 +20,7 @@ class HilPort {
 public:
     using Notice = HilSimulator::Notice;
 
-    // `faults` by their times. `links` and `notice` must outlive the object.
+    // `faults` are in the order of their times. `links` and `notice` must outlive the object.
     HilPort(const hil::PairOptions& options, std::vector<hil::TimedFault> faults, link::Links& links,
             const Notice& notice);
 

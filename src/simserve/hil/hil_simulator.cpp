@@ -40,13 +40,11 @@ SetupResult<void> HilSimulator::add(const flight::VehicleOptions& vehicle, const
                                     std::vector<hil::TimedFault> faults) {
     endpoint::Endpoint given = endpoint;
     given.options.low_latency = true;
-    // GCC 12 clears the padding of a temporary PairOptions at wrong places, after it has copied the vehicle.
-    hil::PairOptions options;
-    options.vehicle = vehicle;
-    options.rates = options_.rates;
-    options.speed = options_.speed;
-    options.has_own_clock = given.row().form == endpoint::Form::device;
-    options.utc_at_start = options_.utc_at_start;
+    const hil::PairOptions options{.vehicle = vehicle,
+                                   .rates = options_.rates,
+                                   .speed = options_.speed,
+                                   .has_own_clock = given.row().form == endpoint::Form::device,
+                                   .utc_at_start = options_.utc_at_start};
     auto port = std::make_unique<HilPort>(options, std::move(faults), *links_, notice_);
     const auto added = fault::add(*links_, given);
     if (!added) return tl::unexpected(added.error());

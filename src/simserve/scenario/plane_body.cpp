@@ -47,7 +47,7 @@ constexpr std::array plane_numbers{
     PlaneNumber{"turn_radius", {1, 50}, [](PlaneBody& b) -> double& { return b.turn_radius_m; }},
 };
 
-constexpr double earth_gravity = 9.80665, sea_level_density = 1.225;
+constexpr double earth_gravity = 9.80665;
 constexpr double slow_flight = 1.3;  // times the stall speed: the least at which a pilot flies
 
 // Level flight at this speed, at sea level.
@@ -55,7 +55,7 @@ struct LevelFlight {
     double speed, pressure, lift, drag, attack_deg;
 };
 LevelFlight level_at(const PlaneBody& body, double speed) {
-    const double pressure = 0.5 * sea_level_density * speed * speed;
+    const double pressure = 0.5 * flight::sea_level_density * speed * speed;
     const double lift = body.mass_kg * earth_gravity / (pressure * body.area_m2);
     return {.speed = speed,
             .pressure = pressure,
@@ -64,16 +64,12 @@ LevelFlight level_at(const PlaneBody& body, double speed) {
             .attack_deg = (lift - body.lift_zero) / body.lift_slope * (180 / std::numbers::pi)};
 }
 
-double most_lift(const PlaneBody& body) {
-    return body.lift_zero + body.lift_slope * body.stall_deg * (std::numbers::pi / 180);
-}
-
 tl::unexpected<SetupError> plane_error(std::string text) { return setup_error(SetupCode::usage, std::move(text)); }
 
 SetupResult<void> check_speeds(const PlaneBody& body) {
     constexpr double slowest = 3, fastest = 40;
-    if (most_lift(body) < 0.3)
-        return plane_error(fmt::format("its greatest lift coefficient is {:.2f}; at least 0.3", most_lift(body)));
+    if (highest_lift(body) < 0.3)
+        return plane_error(fmt::format("its greatest lift coefficient is {:.2f}; at least 0.3", highest_lift(body)));
     const double stall = stall_speed(body);
     if (stall >= slowest && stall <= fastest) return {};
     return plane_error(fmt::format("it stalls at {:.1f} m/s, by its mass, area and lift; {} to {} m/s is possible",
@@ -108,7 +104,8 @@ SetupResult<void> check_controls(const PlaneBody& body) {
 // Steps of up to 10 ms are short against every motion of the body in fast flight.
 SetupResult<void> check_steadiness(const PlaneBody& body) {
     constexpr double fast = 4, most_rate = 100, most_stiff = 2500;  // stall speeds, 1/s, 1/s^2
-    const double speed = fast * stall_speed(body), force = 0.5 * sea_level_density * speed * speed * body.area_m2;
+    const double speed = fast * stall_speed(body),
+                 force = 0.5 * flight::sea_level_density * speed * speed * body.area_m2;
     const auto rate_of = [&](double damping_of, double length, double inertia) {
         return force * length * length * damping_of / (2 * speed * inertia);
     };

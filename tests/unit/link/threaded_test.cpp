@@ -280,7 +280,7 @@ TEST_F(Threaded, AfterATurnThatTookLongTheNextHandlesLess) {
     Played& transport = connected("wsin://127.0.0.1:14550");
     for (int i = 0; i < 2500; ++i)
         EXPECT_TRUE(transport.mailbox->deliver(1, attitude(static_cast<std::uint8_t>(i)), wall_now()));
-    node.recorder.answer = [&](const RxFrame&) {
+    node.recorder.answer = [&](const RxFrame&) {  // the time of the turn is what is tested
         if (node.recorder.frames.size() == 1) std::this_thread::sleep_for(std::chrono::milliseconds(100));
     };
     node.poll();

@@ -24,7 +24,7 @@ struct Situation {
     Airflow air;
     double height = 0;  // m above the ground
     bool on_ground = false;
-    double density = 1.225;  // kg/m^3
+    double density = sea_level_density;  // kg/m^3
 };
 
 struct Command {
