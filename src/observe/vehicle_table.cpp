@@ -47,6 +47,8 @@ std::optional<double> voltage_of(const msg::BatteryStatus& status) {
 
 }  // namespace
 
+bool Vehicle::is_silent(MonoTime now) const noexcept { return !has_ended && now - heard >= silence; }
+
 void RoundTrip::add(Nanoseconds time) noexcept {
     last = time;
     least = count == 0 ? time : std::min(least, time);

@@ -15,6 +15,8 @@ namespace {
 
 constexpr std::uint8_t no_autopilot = 8;  // MAV_AUTOPILOT_INVALID
 
+constexpr int least_title = 8;
+
 std::string playing_text(const Snapshot& shown) {
     const auto& its = *shown.playing;
     const auto text = fmt::format("{} / {}", clock_text(shown.now.wall - its.begin), clock_text(its.end - its.begin));
@@ -22,13 +24,26 @@ std::string playing_text(const Snapshot& shown) {
     return its.is_halted ? text + " halted" : its.speed == 1 ? text : fmt::format("{} x{:g}", text, its.speed);
 }
 
+// Narrow terminals have no room for the rates.
+std::string title_figures(const Snapshot& shown, const State& state, int width) {
+    std::string text;
+    for (const auto& part :
+         {state.paused ? "PAUSED" : std::string(), shown.playing ? playing_text(shown) : std::string(),
+          hz_text(shown.hz) + " Hz", bytes_text(shown.bytes_per_s) + "/s"}) {
+        if (part.empty()) continue;
+        if (!text.empty() && width_of(text) + width_of(part) + 2 > width) break;
+        text += (text.empty() ? "" : "  ") + part;
+    }
+    return text;
+}
+
 void draw_title(Grid& grid, int y, const Snapshot& shown, const State& state) {
-    const int width = grid.size().width;
-    auto right = fmt::format("{} Hz {}/s", hz_text(shown.hz), bytes_text(shown.bytes_per_s));
-    if (shown.playing) right = playing_text(shown) + "   " + right;
-    if (state.paused) right = "PAUSED   " + right;
-    const auto x = grid.put(1, y, "mavloom top", Ink::strong);
-    grid.put(x + 2, y, shown.title, Ink::plain, width - width_of(right) - 3);
+    constexpr std::string_view name = "mavloom top";
+    const int width = grid.size().width, for_title = std::min(width_of(shown.title), least_title);
+    const auto right = title_figures(shown, state, width - width_of(name) - for_title - 5);
+    const int end = width - 1 - width_of(right);
+    const auto x = grid.put(1, y, name, Ink::strong, end - 1);
+    grid.put(x + 2, y, shown.title, Ink::plain, end - 2);
     grid.put_right(width - 1, y, right, Ink::strong);
     grid.reverse(y);
 }
@@ -37,7 +52,7 @@ void draw_title(Grid& grid, int y, const Snapshot& shown, const State& state) {
 int put_vehicle(Grid& grid, int x, int y, const observe::Vehicle& its, const Snapshot& shown) {
     x = grid.put(x, y, fmt::format("{} {} ", source_text(its.source), entry_text(*shown.dialect, "MAV_TYPE", its.type)),
                  Ink::accent);
-    if (shown.now.mono - its.heard > observe::silence) x = grid.put(x, y, "silent ", Ink::bad);
+    if (its.is_silent(shown.now.mono)) x = grid.put(x, y, "silent ", Ink::bad);
     if (!its.mode.empty()) x = grid.put(x, y, fmt::format("{} ", its.mode), Ink::strong);
     x = grid.put(x, y, its.is_armed ? "armed " : "disarmed ", its.is_armed ? Ink::warning : Ink::dim);
     if (its.battery) x = grid.put(x, y, battery_text(its));
@@ -89,7 +104,7 @@ void draw_tabs(Grid& grid, int y, const State& state) {
 }
 
 std::string hints_of(const Snapshot& shown, const State& state) {
-    if (state.shows_help) return "any key: back";
+    if (state.shows_help) return "\u2191 \u2193 scroll  esc back";
     const auto* const space = shown.playing  ? "space halt  \u2190 \u2192 seek"
                               : state.paused ? "space go on"
                                              : "space pause";
@@ -183,7 +198,7 @@ Grid draw(const Snapshot& shown, State& state, Size size, Glyphs glyphs) {
     draw_alarm_line(grid, its.alarm, shown);
     if (its.tabs >= 0) draw_tabs(grid, its.tabs, state);
     const auto* const open = state.is_open ? shown.find(state.selected) : nullptr;
-    if (state.shows_help) draw_help(grid, its.body, its.end, shown.playing.has_value());
+    if (state.shows_help) draw_help(grid, its.body, its.end, shown.playing.has_value(), state.first_help);
     else if (open != nullptr) draw_open(grid, its, shown, state, *open);
     else draw_table(grid, its, shown, state);
     if (its.footer >= 0) draw_footer(grid, its.footer, shown, state);

@@ -14,6 +14,8 @@ namespace {
 constexpr int least_height_with_plot = 12, least_plot = 6, most_plot = 14;
 constexpr int least_width_with_counts = 70;
 constexpr int names_end = 30, then_width = 24;
+constexpr int least_spark = 6, most_spark = 16;
+constexpr std::size_t spark_points = 256;
 
 using message::MessageView;
 using message::TextBuffer;
@@ -34,15 +36,24 @@ std::string value_of(const FieldLine& line, const Row& row, const dialect::Diale
     return fmt::to_string(text);
 }
 
+std::vector<Point> points_of(const FieldLine& line, const Snapshot& shown, const Row& row,
+                             std::size_t most = History::max_payloads) {
+    const bool is_text = line.field->is_array() && !line.element;
+    if (is_text || !shown.history.is_of(row.key())) return {};
+    return shown.history.points({line.field, line.element.value_or(0)}, shown.now.wall, most);
+}
+
+// The newest part of a plot is at its right end, so the value covers the oldest part if it needs the room.
 void draw_field(Grid& grid, int y, const FieldLine& line, const Snapshot& shown, const Row& row, const Row* then) {
-    const int names = std::min(names_end, grid.size().width * 2 / 5);
+    const int width = grid.size().width, names = std::min(names_end, width * 2 / 5);
+    const int spark_width = std::clamp(width / 6, least_spark, most_spark), spark = width - 1 - spark_width;
+    draw_spark(grid, spark, y, spark_width, points_of(line, shown, row, spark_points), shown.now.wall);
     grid.put(1, y, label_of(line, row, *shown.dialect), Ink::dim, names - 1);
     const auto value = value_of(line, row, *shown.dialect);
-    if (then == nullptr) return void(grid.put(names, y, value));
-    const auto before = value_of(line, *then, *shown.dialect);
-    const int end = std::max(names, grid.size().width - then_width);
-    grid.put(names, y, value, value == before ? Ink::plain : Ink::accent, end - 1);
-    grid.put(end, y, "then " + before, Ink::dim);
+    const auto before = then == nullptr ? value : value_of(line, *then, *shown.dialect);
+    int end = grid.put(names, y, value, value == before ? Ink::plain : Ink::accent);
+    end = grid.put(end, y, " ");
+    if (then != nullptr) grid.put(std::max(end, spark - then_width), y, fmt::format("then {} ", before), Ink::dim);
 }
 
 // Of a message without definition.
@@ -78,7 +89,7 @@ int field_lines(int y, int end) noexcept {
 
 void draw_message_head(Grid& grid, int y, const Snapshot& shown, const Row& row) {
     const auto& its = row.its.traffic;
-    auto rate = hz_text(row.hz) + " Hz";
+    auto rate = row.is_silent ? "silent" : hz_text(row.hz) + " Hz";
     if (grid.size().width >= least_width_with_counts)
         rate += fmt::format(", {} frames, {} ago", count_text(its.count), time_text(shown.now.mono - row.its.heard));
     const int end = grid.size().width - 1 - width_of(rate) - 1;
@@ -99,16 +110,8 @@ void draw_message(Grid& grid, int y, int end, const Snapshot& shown, const State
     }
     const auto at = static_cast<std::size_t>(state.field);
     if (y + rows < end && at < lines.size())
-        draw_plot(grid, y + rows, end, shown, label_of(lines[at], row, *shown.dialect));
-}
-
-std::optional<Number> plotted(const State& state, const Snapshot& shown) {
-    const auto* const row = state.is_open ? shown.find(state.selected) : nullptr;
-    if (row == nullptr) return std::nullopt;
-    const auto lines = fields_of(*row);
-    const auto at = static_cast<std::size_t>(state.field);
-    if (at >= lines.size() || (lines[at].field->is_array() && !lines[at].element)) return std::nullopt;
-    return Number{lines[at].field, lines[at].element.value_or(0)};
+        draw_plot(grid, y + rows, end, points_of(lines[at], shown, row), shown.now.wall,
+                  label_of(lines[at], row, *shown.dialect));
 }
 
 }  // namespace mavloom::view

@@ -25,9 +25,17 @@ char32_t safe(char32_t c) noexcept {
     return std::ranges::any_of(one_cell, [c](Range r) { return c >= r.first && c <= r.last; }) ? c : U'?';
 }
 
+// By the height of its dots, of which a character has four. Those of a steep curve fill most of it.
+char32_t ascii_of_dots(std::uint32_t dots) noexcept {
+    constexpr std::uint32_t top = 0x09, upper = 0x12, lower = 0x24, bottom = 0xc0;
+    const bool is_steep = (dots & (top | upper)) != 0 && (dots & (lower | bottom)) != 0 && (dots & (top | bottom)) != 0;
+    if (is_steep) return U'|';
+    return (dots & top) != 0 ? U'\'' : (dots & bottom) != 0 ? U'_' : (dots & lower) != 0 ? U'.' : U'-';
+}
+
 char32_t ascii(char32_t c) noexcept {
     if (c < 0x80) return c;
-    if (c > 0x2800 && c <= 0x28ff) return U'*';
+    if (c > first_braille && c <= last_braille) return ascii_of_dots(c - first_braille);
     switch (c) {
         case 0x2500: return U'-';
         case 0x2502: return U'|';

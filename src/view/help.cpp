@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "view/table.hpp"
 
 namespace mavloom::view {
@@ -29,20 +31,38 @@ constexpr std::array recorded{Help{"\u2190 \u2192", "10 seconds back and forward
                               Help{"space", "halt the recording, and go on"}, Help{"- +", "half and double speed"},
                               Help{"0 $", "to the begin and to the end"}, Help{"", ""}};
 
-void draw(Grid& grid, int& y, int end, std::span<const Help> lines) {
-    const int text = grid.size().width < narrow_help ? 13 : 25;
-    for (const auto& line : lines) {
-        if (y >= end) return;
-        grid.put(1, y, line.keys, Ink::accent, text - 1);
-        grid.put(text, y++, line.text);
+// Removes from `text` the words that fit into `width` cells. Returns them.
+std::string_view take_words(std::string_view& text, int width) {
+    std::size_t end = std::min(text.find(' '), text.size());
+    for (auto next = end; next < text.size(); end = next) {
+        next = std::min(text.find(' ', next + 1), text.size());
+        if (width_of(text.substr(0, next)) > width) break;
     }
+    const auto words = text.substr(0, end);
+    text.remove_prefix(std::min(text.size(), end + 1));
+    return words;
+}
+
+void add_lines(std::vector<Help>& lines, Help help, int keys_width, int text_width) {
+    do {
+        const auto keys = take_words(help.keys, keys_width);
+        lines.push_back({keys, take_words(help.text, text_width)});
+    } while (!help.keys.empty() || !help.text.empty());
 }
 
 }  // namespace
 
-void draw_help(Grid& grid, int y, int end, bool plays) {
-    draw(grid, y, end, plays ? std::span<const Help>(recorded) : heard_now);
-    draw(grid, y, end, live);
+void draw_help(Grid& grid, int y, int end, bool plays, int& first) {
+    const int width = grid.size().width, text = width < narrow_help ? 13 : 25;
+    std::vector<Help> lines;
+    for (const auto& help : plays ? std::span<const Help>(recorded) : heard_now)
+        add_lines(lines, help, text - 2, width - text);
+    for (const auto& help : live) add_lines(lines, help, text - 2, width - text);
+    first = std::clamp(first, 0, std::max(0, static_cast<int>(lines.size()) - (end - y)));
+    for (auto at = static_cast<std::size_t>(first); at < lines.size() && y < end; ++at, ++y) {
+        grid.put(1, y, lines[at].keys, Ink::accent);
+        grid.put(text, y, lines[at].text);
+    }
 }
 
 }  // namespace mavloom::view

@@ -11,7 +11,7 @@ namespace {
 using Code = Key::Code;
 using Shown = std::shared_ptr<const Snapshot>;
 
-constexpr int wheel_lines = 3;
+constexpr int wheel_lines = 3, all_lines = 1'000'000;
 
 int count_of(const std::vector<Line>& lines) { return static_cast<int>(lines.size()); }
 
@@ -47,6 +47,13 @@ void move(State& state, const Snapshot& shown, int by) {
         auto& first = state.first[static_cast<std::size_t>(state.tab)];
         first = std::max(0, first + by);
     }
+}
+
+// Other keys end it.
+Effect scroll_help(State& state, int by) {
+    state.first_help = std::max(0, state.first_help + by);
+    if (by == 0) state.shows_help = false;
+    return Effect::none;
 }
 
 void show_tab(State& state, int tab) {
@@ -138,7 +145,10 @@ Effect take_character(State& state, const Shown& shown, char32_t c) {
         case U'0': return Effect::to_begin;
         case U'$': return Effect::to_end;
         case U'?':
-        case U'h': state.shows_help = true; break;
+        case U'h':
+            state.shows_help = true;
+            state.first_help = 0;
+            break;
         case U'/': begin(state, Prompt::search); break;
         case U'c': begin(state, Prompt::choice); break;
         case U'i':
@@ -151,12 +161,26 @@ Effect take_character(State& state, const Shown& shown, char32_t c) {
         case U'S': sort_by_next(state, -1); break;
         case U'r': state.is_backwards = !state.is_backwards; break;
         case U'f': state.frozen = state.frozen ? nullptr : shown; break;
-        case U'j': move(state, *shown, 1); break;
-        case U'k': move(state, *shown, -1); break;
         default: break;
     }
     if (state.sort == Column::was && state.frozen == nullptr) state.sort = Column::name;
     return Effect::none;
+}
+
+// 0: the key does not scroll. `page` is how far PgDn does.
+int lines_of_scroll(const Key& key, int page) {
+    switch (key.code) {
+        case Code::up: return -1;
+        case Code::down: return 1;
+        case Code::page_up: return -page;
+        case Code::page_down: return page;
+        case Code::home: return -all_lines;
+        case Code::end: return all_lines;
+        case Code::scroll_up: return -wheel_lines;
+        case Code::scroll_down: return wheel_lines;
+        case Code::character: return key.character == U'j' ? 1 : key.character == U'k' ? -1 : 0;
+        default: return 0;
+    }
 }
 
 }  // namespace
@@ -164,32 +188,26 @@ Effect take_character(State& state, const Shown& shown, char32_t c) {
 Effect press(State& state, const Shown& shown, const Key& key, Size size) {
     const auto its = layout_of(size);
     const int page = std::max(1, (state.is_open ? field_lines(its.body, its.end) : its.end - its.body) - 1);
-    constexpr int all = 1'000'000;
-    if (state.shows_help) {
-        state.shows_help = false;
-        return Effect::none;
-    }
+    const int by = lines_of_scroll(key, page);
+    if (state.shows_help) return scroll_help(state, by);
     const bool is_move = key.code == Code::up || key.code == Code::down || key.code == Code::click;
     if (state.prompt == Prompt::rate && key.code == Code::click) state.prompt = Prompt::none;
     if (state.prompt == Prompt::rate || (state.prompt != Prompt::none && !is_move)) return enter(state, key);
+    if (by != 0) {
+        move(state, *shown, by);
+        return Effect::none;
+    }
     switch (key.code) {
         case Code::character: return take_character(state, shown, key.character);
-        case Code::up: move(state, *shown, -1); break;
-        case Code::down: move(state, *shown, 1); break;
         case Code::left: return Effect::back;
         case Code::right: return Effect::forward;
-        case Code::page_up: move(state, *shown, -page); break;
-        case Code::page_down: move(state, *shown, page); break;
-        case Code::home: move(state, *shown, -all); break;
-        case Code::end: move(state, *shown, all); break;
         case Code::enter: open(state, *shown); break;
         case Code::escape:
         case Code::backspace: back(state); break;
         case Code::tab: show_tab(state, static_cast<int>(state.tab) + 1); break;
         case Code::back_tab: show_tab(state, static_cast<int>(state.tab) - 1); break;
         case Code::click: click(state, *shown, key, size); break;
-        case Code::scroll_up: move(state, *shown, -wheel_lines); break;
-        case Code::scroll_down: move(state, *shown, wheel_lines); break;
+        default: break;
     }
     return Effect::none;
 }

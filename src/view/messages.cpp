@@ -54,18 +54,15 @@ Places places_of(const State& state, int width) {
 
 Nanoseconds age_of(const observe::LatestRow& row, Now now) { return now.mono - row.heard; }
 
-bool is_silent(const observe::LatestRow& row, Now now) {
-    const auto limit = row.silent_after();
-    return limit && age_of(row, now) > *limit;
-}
-
 bool is_new(const Row& row, const Snapshot& shown) {
     const auto since = shown.now.wall - row.its.traffic.first;
     return since < new_for && shown.now.mono - shown.began > new_for;
 }
 
+std::string rate_text(const Row& row) { return row.hz == 0 ? "-" : hz_text(row.hz); }
+
 Ink ink_of(const Row& row, const Snapshot& shown) {
-    if (is_silent(row.its, shown.now)) return Ink::dim;
+    if (row.is_silent) return Ink::dim;
     return is_new(row, shown) ? Ink::good : Ink::plain;
 }
 
@@ -73,10 +70,10 @@ std::string text_of(Column column, const Row& row, const Snapshot& shown, const 
     const auto& its = row.its.traffic;
     switch (column) {
         case Column::name: return {};
-        case Column::hz: return its.count < 2 ? "-" : hz_text(row.hz);
+        case Column::hz: return rate_text(row);
         case Column::was: {
             const auto* const then = state.frozen ? state.frozen->find(row.key()) : nullptr;
-            return then == nullptr ? "-" : hz_text(then->hz);
+            return then == nullptr ? "-" : rate_text(*then);
         }
         case Column::age: return age_text(age_of(row.its, shown.now));
         case Column::gap_max: return its.count < 2 ? "-" : time_text(its.longest_gap);
@@ -169,7 +166,7 @@ private:
     void draw_row(Grid& grid, int y, const Row& row) const {
         const auto ink = ink_of(row, shown_);
         if (is_new(row, shown_)) grid.put(0, y, "+", Ink::good);
-        if (is_silent(row.its, shown_.now)) grid.put(0, y, "!", Ink::warning);
+        if (row.is_silent) grid.put(0, y, "!", Ink::warning);
         const bool is_tree = state_.sort == Column::name;
         const auto name = is_tree ? name_of(row.its)
                                   : fmt::format("{} {}", source_text(row.its.traffic.source), name_of(row.its));

@@ -14,7 +14,6 @@ namespace mavloom::view {
 namespace {
 
 constexpr int labels = 11, dots_x = 2, dots_y = 4;
-constexpr char32_t first_braille = 0x2800;
 
 // The bit of the dot in column x and row y of a character.
 constexpr std::uint8_t dot_bits[dots_x][dots_y] = {{0x01, 0x02, 0x04, 0x40}, {0x08, 0x10, 0x20, 0x80}};
@@ -75,16 +74,23 @@ void set_points(Dots& dots, const std::vector<Point>& points, Limits limits, Wal
 
 }  // namespace
 
-void draw_plot(Grid& grid, int y, int end, const Snapshot& shown, std::string_view label) {
+void draw_spark(Grid& grid, int x, int y, int width, const std::vector<Point>& points, WallTime now) {
+    if (points.empty()) return;
+    Dots dots(width, 1);
+    set_points(dots, points, limits_of(points), now);
+    dots.draw(grid, x, y);
+}
+
+void draw_plot(Grid& grid, int y, int end, const std::vector<Point>& points, WallTime now, std::string_view label) {
     const int width = grid.size().width - labels - 1;
     grid.put(1, y, label, Ink::strong);
     grid.put_right(grid.size().width - 1, y, fmt::format("last {}", time_text(History::window)), Ink::dim);
     ++y;
-    if (shown.history.empty()) return void(grid.put(1, y, "no number to plot so far", Ink::dim));
+    if (points.empty()) return void(grid.put(1, y, "no number to plot so far", Ink::dim));
     if (width < 4 || y >= end) return;
-    const auto limits = limits_of(shown.history);
+    const auto limits = limits_of(points);
     Dots dots(width, end - y);
-    set_points(dots, shown.history, limits, shown.now.wall);
+    set_points(dots, points, limits, now);
     dots.draw(grid, labels, y);
     grid.put_right(labels - 1, y, fmt::format("{:.5g}", limits.high), Ink::dim);
     if (limits.high > limits.low) grid.put_right(labels - 1, end - 1, fmt::format("{:.5g}", limits.low), Ink::dim);

@@ -20,12 +20,19 @@ std::vector<int> fit(std::span<const Spec> specs, int first, int width) {
     return ends;
 }
 
+// Text may fill its column but for a blank.
+void put_in(Grid& grid, int y, const Spec& spec, int end, std::string_view text, Ink ink) {
+    if (end == 0) return;
+    if (spec.is_right) grid.put_right(end, y, text, ink);
+    else grid.put(end - spec.width, y, text, ink, end - 1);
+}
+
 std::unique_ptr<Table> make_table(Tab tab, const Snapshot& shown, const State& state, int width) {
     switch (tab) {
         case Tab::messages: return message_table(shown, state, width);
         case Tab::vehicles: return vehicle_table(shown, width);
         case Tab::links: return link_table(shown);
-        case Tab::routes: return route_table(shown);
+        case Tab::routes: return route_table(shown, width);
         case Tab::alarms: break;
     }
     return alarm_table(shown);

@@ -24,7 +24,7 @@ public:
 [[nodiscard]] std::unique_ptr<Table> message_table(const Snapshot& shown, const State& state, int width);
 [[nodiscard]] std::unique_ptr<Table> vehicle_table(const Snapshot& shown, int width);
 [[nodiscard]] std::unique_ptr<Table> link_table(const Snapshot& shown);
-[[nodiscard]] std::unique_ptr<Table> route_table(const Snapshot& shown);
+[[nodiscard]] std::unique_ptr<Table> route_table(const Snapshot& shown, int width);
 [[nodiscard]] std::unique_ptr<Table> alarm_table(const Snapshot& shown);
 
 // A column of numbers ends at its right end; the blank before it is part of it. One of rank 0 is always there.
@@ -35,6 +35,8 @@ struct Spec {
 };
 // Where each column of `specs` ends; 0: there is no room for it. Those of lower ranks come first.
 [[nodiscard]] std::vector<int> fit(std::span<const Spec> specs, int first, int width);
+// Writes into a column that ends at `end`, if there is room for it.
+void put_in(Grid& grid, int y, const Spec& spec, int end, std::string_view text, Ink ink);
 
 // ---- the messages
 
@@ -59,7 +61,9 @@ void draw_message(Grid& grid, int y, int end, const Snapshot& shown, const State
 void draw_message_head(Grid& grid, int y, const Snapshot& shown, const Row& row);
 // The lines of fields between y and `end`; the others are for the plot.
 [[nodiscard]] int field_lines(int y, int end) noexcept;
-void draw_plot(Grid& grid, int y, int end, const Snapshot& shown, std::string_view label);
+void draw_plot(Grid& grid, int y, int end, const std::vector<Point>& points, WallTime now, std::string_view label);
+// A plot of one line.
+void draw_spark(Grid& grid, int x, int y, int width, const std::vector<Point>& points, WallTime now);
 [[nodiscard]] std::string name_of(const observe::LatestRow& row);
 
 // ---- entries in the last line
@@ -75,7 +79,8 @@ void draw_prompt(Grid& grid, int y, const Snapshot& shown, const State& state);
            (column == Column::was && state.frozen == nullptr);
 }
 
-void draw_help(Grid& grid, int y, int end, bool plays);
+// From line `first` of it, which is corrected.
+void draw_help(Grid& grid, int y, int end, bool plays, int& first);
 
 // Which line is for what, in a terminal of this size. -1: there is no room for it.
 struct Layout {

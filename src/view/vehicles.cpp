@@ -24,6 +24,8 @@ constexpr std::array<Spec, 12> vehicle_specs{{{" ID", 9, 0, false},
                                               {"HZ", 9, 9},
                                               {"ROUND TRIP", 12, 11}}};
 
+constexpr std::size_t rate_column = 10;
+
 // From a request to its answer.
 std::string round_trip_text(const observe::Vehicle& vehicle) {
     for (const auto* const trip : {&vehicle.timesync, &vehicle.ping, &vehicle.command})
@@ -43,7 +45,7 @@ std::string text_in(std::size_t column, const observe::Vehicle& its, const diale
         case 7: return gps_text(its, dialect);
         case 8: return its.position ? fmt::format("{:.1f} m", its.position->relative_alt_m) : "-";
         case 9: return its.position ? fmt::format("{:.1f} m/s", its.position->ground_speed_m_s) : "-";
-        case 10: return hz_text(its.hz);
+        case rate_column: return hz_text(its.hz);
         default: return round_trip_text(its);
     }
 }
@@ -58,19 +60,16 @@ public:
     }
     void draw_line(Grid& grid, int y, int line) const override {
         const auto& its = shown_.vehicles[static_cast<std::size_t>(line)];
-        const bool is_silent = shown_.now.mono - its.heard > observe::silence;
+        const bool is_silent = its.is_silent(shown_.now.mono);
         for (std::size_t i = 0; i < vehicle_specs.size(); ++i) {
             const auto ink = is_silent ? Ink::dim : i == 4 && its.is_armed ? Ink::warning : Ink::plain;
-            put(grid, y, i, text_in(i, its, *shown_.dialect), ink);
+            put(grid, y, i, is_silent && i == rate_column ? "-" : text_in(i, its, *shown_.dialect), ink);
         }
     }
 
 private:
     void put(Grid& grid, int y, std::size_t column, std::string_view text, Ink ink) const {
-        const auto end = ends_[column];
-        if (end == 0) return;
-        if (vehicle_specs[column].is_right) grid.put_right(end, y, text, ink);
-        else grid.put(end - vehicle_specs[column].width, y, text, ink, end - 1);
+        put_in(grid, y, vehicle_specs[column], ends_[column], text, ink);
     }
 
     const Snapshot& shown_;

@@ -55,10 +55,9 @@ void Model::restart() {
     began_.reset();
 }
 
-void Model::watch(const std::optional<view::RowKey>& key, const std::optional<view::Number>& number) {
+void Model::watch(const std::optional<view::RowKey>& key) {
     const std::lock_guard lock(mutex_);
     history_.watch(key);
-    number_ = number;
 }
 
 observe::OwnCounts Model::own_counts() const {
@@ -95,7 +94,7 @@ view::Snapshot Model::snapshot(view::Now now, view::Rates rates) {
     shown.notices = notices_;
     shown.hints = hints_;
     shown.routes = routes_;
-    if (number_) shown.history = history_.points(*number_);
+    shown.history = history_;
     return shown;
 }
 

@@ -40,8 +40,8 @@ public:
 
     // ---- the thread that draws
     void want_routes(bool wants) noexcept { wants_routes_ = wants; }
-    // Keeps the numbers of this message, and puts those of `number` into each snapshot.
-    void watch(const std::optional<view::RowKey>& key, const std::optional<view::Number>& number);
+    // Puts the history of this message, from now on, into each snapshot.
+    void watch(const std::optional<view::RowKey>& key);
     [[nodiscard]] bool has_rows() const;
     [[nodiscard]] view::Snapshot snapshot(view::Now now, view::Rates rates);
 
@@ -57,7 +57,6 @@ private:
     mutable std::mutex mutex_;  // guards all that follows
     std::unique_ptr<observe::Inspector> inspector_;
     view::History history_;
-    std::optional<view::Number> number_;
     std::optional<observe::OwnCounts> counts_;
     std::vector<observe::Hop> hops_;
     std::vector<view::Route> routes_;

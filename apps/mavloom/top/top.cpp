@@ -146,7 +146,7 @@ private:
 
     void draw() {
         model_.want_routes(state_.tab == view::Tab::routes);
-        if (latest_) model_.watch(state_.is_open ? state_.selected : std::nullopt, plotted(state_, *shown()));
+        model_.watch(state_.is_open ? state_.selected : std::nullopt);
         auto snapshot = model_.snapshot(feed_.now(), view::Rates::recent);
         snapshot.playing = feed_.playing();
         latest_ = std::make_shared<const view::Snapshot>(std::move(snapshot));

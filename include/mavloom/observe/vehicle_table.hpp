@@ -58,6 +58,8 @@ struct Vehicle {
     std::optional<Gps> gps{};
     std::optional<Position> position{};
     RoundTrip timesync{}, ping{}, command{};  // from a request that was heard to its answer
+
+    [[nodiscard]] bool is_silent(MonoTime now) const noexcept;
 };
 
 class VehicleTable {

@@ -27,6 +27,9 @@ struct Size {
     friend bool operator==(const Size&, const Size&) = default;
 };
 
+// Characters of 2 by 4 dots (Unicode, "Braille Patterns").
+inline constexpr char32_t first_braille = 0x2800, last_braille = 0x28ff;
+
 enum class Glyphs : std::uint8_t { unicode, ascii };
 
 class Grid {

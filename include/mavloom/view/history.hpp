@@ -43,8 +43,9 @@ public:
         if (watched_ && key_of(row) == *watched_) keep(row);
     }
     void clear() noexcept { kept_.clear(); }
-    // Of the last `window`, oldest first. Invalid numbers are left out.
-    [[nodiscard]] std::vector<Point> points(const Number& number) const;
+    [[nodiscard]] bool is_of(const RowKey& key) const noexcept { return watched_ == key; }
+    // Of the last `window` before `now`, oldest first, and at most `most` of them. Invalid numbers are left out.
+    [[nodiscard]] std::vector<Point> points(const Number& number, WallTime now, std::size_t most = max_payloads) const;
 
 private:
     struct Kept {
@@ -57,6 +58,7 @@ private:
     std::optional<RowKey> watched_;
     const dialect::Message* message_ = nullptr;
     std::deque<Kept> kept_;
+    std::size_t dropped_ = 0;  // payloads that were kept before the first one
 };
 
 }  // namespace mavloom::view

@@ -19,8 +19,9 @@ struct Now {
 };
 
 struct Row {
-    observe::LatestRow its;  // without its link
-    double hz = 0, share = 0;
+    observe::LatestRow its;    // without its link
+    double hz = 0, share = 0;  // the recent rate of a silent row is 0
+    bool is_silent = false;    // the message, or all of its sender
 
     [[nodiscard]] RowKey key() const noexcept { return key_of(its); }
 };
@@ -59,7 +60,7 @@ struct Snapshot {
     std::optional<Playing> playing{};
     std::uint64_t frames = 0;
     double hz = 0, bytes_per_s = 0;
-    std::vector<Point> history{};  // of the number that is plotted
+    History history{};  // of the open message
 
     [[nodiscard]] const Row* find(const std::optional<RowKey>& key) const;
     [[nodiscard]] const observe::SenderLoss* loss_of(LinkId link, Source source) const;

@@ -78,6 +78,7 @@ struct State {
     bool is_open = false;                // the selected message
     int field = 0, first_field = 0;
     bool shows_help = false;
+    int first_help = 0;  // the first line of it that is shown
     std::shared_ptr<const Snapshot> paused{}, frozen{};
 };
 
@@ -86,8 +87,5 @@ enum class Effect : std::uint8_t { none, quit, halt, back, forward, slower, fast
 
 // `shown` is the latest snapshot.
 [[nodiscard]] Effect press(State& state, const std::shared_ptr<const Snapshot>& shown, const Key& key, Size size);
-
-// The number to plot; empty if none is selected.
-[[nodiscard]] std::optional<Number> plotted(const State& state, const Snapshot& shown);
 
 }  // namespace mavloom::view

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "mavloom/base/durations.hpp"
-#include "mavloom/observe/latest_table.hpp"
 #include "web/json.hpp"
 
 namespace mavloom::web {
@@ -237,7 +236,7 @@ void add_vehicle(Out& out, const observe::Vehicle& vehicle, MonoTime now, const 
     add(out, R"(,"armed":{},)", vehicle.is_armed);
     add_enum(out, "status", dialect, "MAV_STATE", vehicle.status);
     const auto age = now - vehicle.heard;
-    const bool is_silent = !vehicle.has_ended && age >= observe::silence;
+    const bool is_silent = vehicle.is_silent(now);
     add(out, R"("age_s":{:.2f},"silent":{},"hz":{:.1f},)", seconds(age), is_silent, is_silent ? 0 : vehicle.hz);
     add_battery(out, vehicle.battery);
     add_gps(out, vehicle.gps, dialect);

@@ -27,10 +27,10 @@ struct DrawTest : InspectorTest {
             hear(msg::Heartbeat{.type = 2, .autopilot = 12, .base_mode = 0x81, .custom_mode = 50593792}, i * 1s);
     }
 
-    [[nodiscard]] std::shared_ptr<Snapshot> taken(Nanoseconds at = 10s) const {
+    [[nodiscard]] std::shared_ptr<Snapshot> taken(Nanoseconds at = 10s, Rates rates = Rates::average) const {
         return std::make_shared<Snapshot>(
             take_snapshot(dialect::default_dialect(), inspector, {wall(at), mono(at)},
-                          {{.link = LinkId{1}, .source = vehicle, .received = 112, .lost = 8}}, Rates::average));
+                          {{.link = LinkId{1}, .source = vehicle, .received = 112, .lost = 8}}, rates));
     }
     std::string drawn(Size size, Glyphs glyphs = Glyphs::ascii) { return draw(*taken(), state, size, glyphs).text(); }
     Effect type(std::u32string_view characters) {
@@ -45,7 +45,7 @@ struct DrawTest : InspectorTest {
 
 TEST_F(DrawTest, TheMessagesOfAVehicle) {
     EXPECT_EQ(drawn({80, 12}),
-              " mavloom top                                                    11.0 Hz 218 B/s\n"
+              " mavloom top                                                   11.0 Hz  218 B/s\n"
               " no alarm\n"
               " 1 Messages  2 Vehicles  3 Links  4 Routes  5 Alarms\n"
               " MESSAGEv                                  HZ     AGE  GAP MAX   JITTER   SHARE\n"
@@ -73,8 +73,23 @@ TEST_F(DrawTest, OnlyWhatASearchShowsIsOpened) {
 
 TEST_F(DrawTest, HelpAndHintsNeedNoUtf8AndNoWideTerminal) {
     type(U"?");
-    EXPECT_THAT(drawn({40, 10}), HasSubstr(" Enter, Esc  open the message, and go ba"));
-    EXPECT_THAT(drawn({40, 10}), HasSubstr(" ^ v PgUp"));
+    EXPECT_THAT(drawn({40, 10}), HasSubstr(" ^ v PgUp    select a message; j and k,\n PgDn Home   too\n"));
+    EXPECT_THAT(drawn({80, 24}), HasSubstr(" Enter, Esc              open the message, and go back\n"));
+}
+
+TEST_F(DrawTest, HelpScrollsWhereItDoesNotFit) {
+    type(U"?");
+    EXPECT_THAT(drawn({40, 10}), Not(HasSubstr("quit")));
+    press({.code = Key::Code::end});
+    EXPECT_THAT(drawn({40, 10}), HasSubstr(" q           quit\n"
+                                           "\n"
+                                           " + green     the message is new\n"
+                                           " ! grey      the message does not come\n"
+                                           "             any more\n"));
+    press({.code = Key::Code::up});
+    EXPECT_THAT(drawn({40, 10}), Not(HasSubstr("any more")));
+    type(U"q");
+    EXPECT_THAT(drawn({40, 10}), HasSubstr("ATTITUDE"));
 }
 
 TEST_F(DrawTest, AMessageOpensToItsFields) {
@@ -84,6 +99,67 @@ TEST_F(DrawTest, AMessageOpensToItsFields) {
     EXPECT_THAT(drawn({80, 24}), HasSubstr("rollspeed"));
     press({.code = Key::Code::escape});
     EXPECT_THAT(drawn({80, 24}), Not(HasSubstr("rollspeed")));
+}
+
+// 20 frames in the middle of the 20 dots of the plots, so 3 s apart. In a character, the left dots are 1, 2, 4 and 0x40
+// from the top, the right ones 8, 0x10, 0x20 and 0x80 (Unicode, "Braille Patterns").
+struct FieldPlotTest : DrawTest {
+    FieldPlotTest() {
+        for (int i = 0; i < 20; ++i) {
+            const auto* const row = hear(msg::Attitude{.roll = static_cast<float>(i)}, 21'500ms + i * 3s);
+            history.watch(key_of(*row));
+            history.take(*row);
+        }
+        press({.code = Key::Code::down});
+        press({.code = Key::Code::enter});
+    }
+    std::string plotted(Size size, Glyphs glyphs) {
+        auto shown = taken(80s);
+        shown->history = history;
+        return draw(*shown, state, size, glyphs).text();
+    }
+    History history;
+};
+
+TEST_F(FieldPlotTest, EachNumberOfAMessageHasASmallPlot) {
+    EXPECT_THAT(plotted({62, 12}, Glyphs::unicode),
+                HasSubstr("\n"
+                          " time_boot_ms           0 ms                       ⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒\n"
+                          " roll                   19.0 rad                   ⣀⣀⡤⠤⠤⠖⠒⠒⠋⠉\n"
+                          " pitch                  0.0 rad                    ⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒\n"
+                          " yaw                    0.0 rad                    ⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒\n"
+                          " rollspeed              0.0 rad/s                  ⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒\n"
+                          " pitchspeed             0.0 rad/s                  ⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒\n"
+                          " yawspeed               0.0 rad/s                  ⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒\n"));
+}
+
+TEST_F(FieldPlotTest, WithoutUtf8PlotsAreAscii) {
+    EXPECT_THAT(plotted({62, 12}, Glyphs::ascii),
+                HasSubstr(" time_boot_ms           0 ms                       ----------\n"
+                          " roll                   19.0 rad                   ___...--''\n"));
+}
+
+TEST_F(FieldPlotTest, AValueCoversTheOldPartOfItsPlot) {
+    hear(msg::Attitude{.roll = 1.0F / 3}, 80s);
+    EXPECT_THAT(plotted({40, 10}, Glyphs::ascii), HasSubstr(" roll           0.33333334 rad   __..''\n"));
+    EXPECT_THAT(plotted({32, 10}, Glyphs::ascii), HasSubstr(" roll       0.33333334 rad ..''\n"));
+}
+
+TEST_F(FieldPlotTest, ThePlotsOfAnotherMessageAreNotShown) {
+    press({.code = Key::Code::escape});
+    press({.code = Key::Code::down});
+    press({.code = Key::Code::enter});
+    EXPECT_THAT(plotted({80, 24}, Glyphs::ascii), HasSubstr("no number to plot so far"));
+}
+
+TEST_F(FieldPlotTest, FewPointsOfALongHistoryAreTheSameOnesLater) {
+    const auto* const roll = dialect::default_dialect().find(msg::Attitude::id)->find("roll");
+    const auto chosen = history.points({roll}, wall(80s), 7);
+    ASSERT_EQ(chosen.size(), 5U) << "of 20 frames, each fourth one";
+    history.take(*hear(msg::Attitude{}, 82s));  // removes the first one, which is too old
+    const auto later = history.points({roll}, wall(82s), 7);
+    ASSERT_EQ(later.size(), 5U);
+    for (std::size_t i = 1; i < chosen.size(); ++i) EXPECT_EQ(later[i - 1].time, chosen[i].time);
 }
 
 TEST_F(DrawTest, AVehicleIsShownInTheWordsOfMavlink) {
@@ -151,6 +227,34 @@ TEST_F(DrawTest, TheRoutesOfARouter) {
     const auto all = draw(*shown, state, {80, 24}, Glyphs::ascii).text();
     EXPECT_THAT(all, HasSubstr(" 1/1      router          udpin://:14550"));
     EXPECT_THAT(all, HasSubstr("          other           it does not answer"));
+    EXPECT_THAT(draw(*shown, state, {40, 10}, Glyphs::ascii).text(),
+                HasSubstr(" SENDER   REACHED BY                AGE\n"
+                          " 1/1      udpin://:14550          0.2 s\n"
+                          " other: it does not answer\n"));
+}
+
+TEST_F(DrawTest, WhereARecordingStandsNeverCoversItsName) {
+    auto shown = taken();
+    shown->title = "/home/pilot/flight.tlog";
+    shown->playing = Playing{.begin = wall(0s), .end = wall(100s), .speed = 8};
+    const auto title = [&](int width) {
+        const auto all = draw(*shown, state, {width, 10}, Glyphs::ascii).text();
+        return all.substr(0, all.find('\n'));
+    };
+    EXPECT_EQ(title(80), " mavloom top  /home/pilot/flight.tlog        00:10 / 01:40 x8  11.0 Hz  218 B/s");
+    EXPECT_EQ(title(40), " mavloom top  /home/p  00:10 / 01:40 x8");
+    EXPECT_EQ(title(20), " m 00:10 / 01:40 x8");
+}
+
+TEST_F(DrawTest, RatesEndWhenASenderFallsSilent) {
+    hear(msg::Attitude{}, 12s, station);
+    EXPECT_THAT(draw(*taken(14900ms, Rates::recent), state, {40, 10}, Glyphs::ascii).text(),
+                HasSubstr("   ATTITUDE                        10.0\n   HEARTBEAT                        1.0\n"));
+    const auto silent = draw(*taken(15s, Rates::recent), state, {40, 10}, Glyphs::ascii).text();
+    EXPECT_THAT(silent,
+                HasSubstr("!  ATTITUDE                           -\n!  HEARTBEAT                          -\n"));
+    EXPECT_THAT(silent, HasSubstr("0.00 Hz"));
+    EXPECT_THAT(silent, HasSubstr("+  ATTITUDE ")) << "the station's is not silent";
 }
 
 TEST_F(DrawTest, ALinkShowsHowFullItsQueueIs) {
@@ -161,7 +265,7 @@ TEST_F(DrawTest, ALinkShowsHowFullItsQueueIs) {
     shown->hops = {{.name = "router", .kind = observe::Hop::Kind::router, .links = {slow, idle}}};
     type(U"3");
     EXPECT_EQ(draw(*shown, state, {80, 9}, Glyphs::ascii).text(),
-              " mavloom top                                                    11.0 Hz 218 B/s\n"
+              " mavloom top                                                   11.0 Hz  218 B/s\n"
               " no alarm\n"
               " 1 Messages  2 Vehicles  3 Links  4 Routes  5 Alarms\n"
               " LINK                                    HZ IN  HZ OUT       IN      OUT  QUEUE\n"
