@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mavloom/msg/heartbeat.hpp"
+#include "mavloom/msg/system_time.hpp"
 #include "mavloom/observe/radio_reports.hpp"
 
 namespace mavloom::observe {
@@ -60,6 +61,7 @@ struct SenderStreams::State {
     struct Print {
         std::uint64_t bytes = 0, number = 0;  // of the frame, from 1; 0: none
         LinkId link{};
+        MessageId id{};
     };
 
     // On one of several links, the frame follows the one before it: the link has a sequence of its own, or carries all.
@@ -70,8 +72,21 @@ struct SenderStreams::State {
                its.links.size() > 1;
     }
 
+    // Of a frame with the same number that was heard so short ago that it is of the same round of numbers. Null: none.
+    [[nodiscard]] const Print* print_of_number(std::uint8_t sequence) const {
+        const auto& known = prints[sequence];
+        return known.number == 0 || its.frames - known.number >= frames_until_again ? nullptr : &known;
+    }
+
+    // Of SYSTEM_TIME.
+    struct Clock {
+        Nanoseconds start{};  // when it was 0, in UTC
+        WallTime heard{};
+    };
+
     SenderStream its;
     std::map<LinkId, std::uint8_t> newest_on_link;
+    std::map<LinkId, Clock> clocks;
     std::array<Print, 256> prints{};  // by sequence number
     std::uint8_t newest = 0;
     std::uint8_t heard_last = 0;  // also if it is late
@@ -136,31 +151,52 @@ void SenderStreams::note_sequence(State& state, const Heard& heard) {
     const bool follows = state.follows_on_link(heard.link, sequence);
     const auto ahead = static_cast<std::int8_t>(sequence - state.newest);
     const auto print = print_of(heard.frame);
+    if (heard.frame.id() == msg::SystemTime::id) note_clock(state, heard, print);
     if (is_first || ahead > 0 || ahead < farthest_behind) {
         if (!is_first && ahead != 1 && follows) ++its.conflicts_across;
         else if (!is_first && ahead > 0 && -ahead >= farthest_behind)
             its.missing += static_cast<std::uint64_t>(ahead - 1);
         state.newest = sequence;
         state.behind_in_row = 0;
-    } else if (!count_copy(state, heard.link, sequence, print)) {
+    } else if (!count_copy(state, heard, print)) {
         if (follows) ++its.conflicts_across;
         if (++state.behind_in_row == restarted_after) state.newest = sequence;
     }
-    state.prints[sequence] = {print, its.frames, heard.link};
+    state.prints[sequence] = {print, its.frames, heard.link, heard.frame.id()};
+}
+
+// A vehicle that starts again may come by another link, so only what was heard lately counts.
+void SenderStreams::note_clock(State& state, const Heard& heard, std::uint64_t print) {
+    using namespace std::chrono_literals;
+    constexpr Nanoseconds lately = 2s, tolerance = 100ms;
+    const auto time = msg::SystemTime::decode(heard.frame.payload());
+    if (time.time_unix_usec == 0 || time.time_unix_usec > INT64_MAX / 1000) return;
+    const auto start = std::chrono::microseconds(time.time_unix_usec) - std::chrono::milliseconds(time.time_boot_ms);
+    const bool differs = std::ranges::any_of(state.clocks, [&](const auto& entry) {
+        const auto& [link, clock] = entry;
+        return link != heard.link && heard.time - clock.heard < lately &&
+               std::chrono::abs(clock.start - start) > tolerance;
+    });
+    const auto* const known = state.print_of_number(heard.frame.sequence());
+    const bool is_other = known != nullptr && known->id == msg::SystemTime::id && known->link != heard.link &&
+                          known->bytes != print;
+    if (differs || is_other) ++state.its.clocks_across;
+    if (state.clocks.size() < max_links || state.clocks.contains(heard.link))
+        state.clocks[heard.link] = {start, heard.time};
 }
 
 // For a frame that is not newer than all before it. Returns false if it is no copy.
-bool SenderStreams::count_copy(State& state, LinkId link, std::uint8_t sequence, std::uint64_t print) {
+bool SenderStreams::count_copy(State& state, const Heard& heard, std::uint64_t print) {
     auto& its = state.its;
-    const auto& known = state.prints[sequence];
-    if (known.number == 0 || its.frames - known.number >= frames_until_again) {
+    const auto* const known = state.print_of_number(heard.frame.sequence());
+    if (known == nullptr) {
         if (its.missing != 0) --its.missing;  // it is only late
         return false;
     }
-    const bool is_across = known.link != link;
-    if (known.bytes == print) ++(is_across ? its.copies_across : its.copies_on_link);
+    const bool is_across = known->link != heard.link;
+    if (known->bytes == print) ++(is_across ? its.copies_across : its.copies_on_link);
     else if (!is_across) ++its.conflicts_on_link;
-    return known.bytes == print;
+    return known->bytes == print;
 }
 
 void SenderStreams::note_window(State& state, WallTime time) {

@@ -8,8 +8,11 @@
 #include "command.hpp"
 #include "doctor/listening.hpp"
 #include "doctor/reports.hpp"
+#include "mavloom/endpoint/checks.hpp"
+#include "mavloom/shm/counter_page.hpp"
 #include "output.hpp"
 #include "page/discovery.hpp"
+#include "page/page_hop.hpp"
 #include "signals.hpp"
 
 namespace mavloom::app {
@@ -29,16 +32,38 @@ SetupResult<void> check_kinds(const std::vector<endpoint::Endpoint>& endpoints) 
                        "recordings and live sources have different times: examine them one after the other");
 }
 
+bool sends_to_one(const observe::Hop& hop, const std::vector<endpoint::Endpoint>& sources) {
+    return std::ranges::any_of(hop.links, [&](const observe::HopLink& link) {
+        const auto to = endpoint::parse_endpoint(link.name);
+        return to && std::ranges::any_of(sources, [&](const endpoint::Endpoint& source) {
+                   return endpoint::leads_back(source, source.address.port, *to);
+               });
+    });
+}
+
+// Programs of this machine that send to the sources: frames may be lost in them.
+void add_programs_before(const std::vector<endpoint::Endpoint>& sources, std::vector<HopReporter::Program>& programs) {
+    for (const auto& name : shm::counter_page_names()) {
+        const auto hop = hop_of_page(name);
+        if (hop && sends_to_one(*hop, sources) &&
+            std::ranges::find(programs, name, &HopReporter::Program::page) == programs.end())
+            programs.push_back({name});
+    }
+}
+
 SetupResult<std::unique_ptr<Listening>> open(const Common& common, DoctorOptions& options,
                                              const dialect::Dialect& dialect) {
     const auto asked = options.sources.empty() ? Listening::Asked::no : Listening::Asked::yes;
     auto running = find_sources(common, options.sources);
     if (!running && running.error().code != SetupCode::in_use) return tl::unexpected(std::move(running.error()));
-    if (!running) options.sources = {std::string(usual_source)};  // another program has the port: that is a finding
+    // Another program has the port: that is a finding.
+    if (!running) options.sources = {std::string(usual_source), std::string(second_source)};
     const auto endpoints = endpoint::parse_endpoints(options.sources);
     if (!endpoints) return tl::unexpected(endpoints.error());
     if (auto checked = check_kinds(*endpoints); !checked) return tl::unexpected(std::move(checked.error()));
-    auto listening = Listening::create(common, dialect, programs_of(options.sources, running.value_or(Running{})));
+    auto programs = programs_of(options.sources, running.value_or(Running{}));
+    add_programs_before(*endpoints, programs);
+    auto listening = Listening::create(common, dialect, std::move(programs));
     if (!listening) return listening;
     for (const auto& endpoint : *endpoints)
         if (auto added = (*listening)->add(endpoint, asked); !added)

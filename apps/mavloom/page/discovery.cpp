@@ -107,7 +107,7 @@ SetupResult<Running> find_sources(const Common& common, std::vector<std::string>
 SetupResult<Running> find_sources(const Common& common, std::vector<std::string>& sources) {
     const bool are_given = !sources.empty();
     auto running = find_sources(common, sources, usual_source);
-    if (!are_given && sources == std::vector<std::string>{std::string(usual_source)} && check_port(second_source))
+    if (!are_given && running && running->rings.empty() && check_port(second_source))
         sources.emplace_back(second_source);
     return running;
 }

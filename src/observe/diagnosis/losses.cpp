@@ -42,6 +42,33 @@ std::uint64_t missing_in_rings(const Evidence& evidence) {
     return sum;
 }
 
+// Frames and pieces that fault= drops or damages. Inward, a piece may hold several frames.
+constexpr std::array<std::string_view, 5> fault_counters{"fault_blackout", "fault_lost", "fault_corrupted", "fault_cut",
+                                                         "fault_queue"};
+
+std::vector<NamedCount> injected(const HopLink& before, const HopLink& after) {
+    std::vector<NamedCount> counts;
+    for (const auto name : fault_counters)
+        if (const auto more = grown(count_of(before.losses, name), count_of(after.losses, name)); more != 0)
+            counts.push_back({std::string(name), more});
+    return counts;
+}
+
+// A link that is new, or that closed and moved its counts elsewhere, has none.
+HopLink link_before(const Hop& before, const HopLink& link) {
+    const auto same = std::ranges::find(before.links, link.name, &HopLink::name);
+    return same == before.links.end() ? HopLink{} : *same;
+}
+
+bool injects_faults(const Evidence& evidence) {
+    return std::ranges::any_of(evidence.hops_after, [&](const Hop& hop) {
+        const auto* const before = before_of(evidence, hop);
+        return before != nullptr && std::ranges::any_of(hop.links, [&](const HopLink& link) {
+                   return !injected(link_before(*before, link), link).empty();
+               });
+    });
+}
+
 std::uint64_t own_losses(const Evidence& evidence, const Listened& source) {
     const auto unwritten = source.kind == Listened::Kind::ring ? missing_in_rings(evidence) : 0;
     return source.count("kernel_drop") + source.count("lapped") + evidence.buffer_full + unwritten;
@@ -71,7 +98,7 @@ void find_loss(const Evidence& evidence, const SenderLoss& loss, Findings& findi
     const auto* const link = evidence.link(loss.link);
     if (!is_lossy(loss) || link == nullptr || is_compared(evidence, link->source, loss.source)) return;
     const auto& source = evidence.sources[link->source];
-    if (own_losses(evidence, source) != 0 || is_explained(evidence, source, loss)) return;
+    if (own_losses(evidence, source) != 0 || injects_faults(evidence) || is_explained(evidence, source, loss)) return;
     const auto* const sender = stream_of(evidence, link->source, loss.source);
     if (sender == nullptr || !sender->has_sequence || arrival_of(evidence, link->source, *sender) != Arrival::usual)
         return;
@@ -131,6 +158,8 @@ void find_link_losses(const Evidence& evidence, const Hop& hop, const HopLink& b
         const auto more = grown(count_of(before.losses, loss.name), loss.count);
         if (more != 0) findings.push_back(words::queue_drop(hop, link, {loss.name, more, loss.help}));
     }
+    if (const auto counts = injected(before, link); !counts.empty())
+        findings.push_back(words::faults_on(hop, link, counts));
     if (const auto more = grown(before.refused, link.refused); more != 0 && !is_ours(evidence, link.name))
         findings.push_back(words::port_refused(hop, link, more));
 }
@@ -143,8 +172,7 @@ void find_hop_losses(const Evidence& evidence, Findings& findings) {
         if (before == nullptr) continue;
         for (const auto& link : hop.links) {
             if (link.is_sum) continue;  // a link that closes moves its counts there
-            const auto same = std::ranges::find(before->links, link.name, &HopLink::name);
-            find_link_losses(evidence, hop, same == before->links.end() ? HopLink{} : *same, link, findings);
+            find_link_losses(evidence, hop, link_before(*before, link), link, findings);
         }
         if (const auto more = ring_dropped(*before, hop); more != 0)
             findings.push_back(words::ring_dropped(hop, {"ring_dropped", more}));

@@ -47,7 +47,11 @@ void find_unheard(const Evidence& evidence, Findings& findings) {
             find_silent(evidence, source, findings);
         }
     }
-    if (!is_any_heard && !is_any_asked && findings.empty()) findings.push_back(words::nothing_heard(evidence));
+    const auto refused = static_cast<std::size_t>(
+        std::ranges::count_if(evidence.sources, [](const Listened& source) { return !source.refusal.empty(); }));
+    const bool is_any_open = refused < evidence.sources.size() || evidence.sources.empty();
+    if (!is_any_heard && !is_any_asked && is_any_open && findings.size() == refused)
+        findings.push_back(words::nothing_heard(evidence));
 }
 
 namespace {

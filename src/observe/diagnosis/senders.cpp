@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t least_heard = 10;
 constexpr double disorder_limit = 0.03, copies_limit = 0.05, split_limit = 0.05, whole_limit = 0.01;
-constexpr std::uint64_t least_changes = 3;
+constexpr std::uint64_t least_changes = 3, least_clocks = 3;
 constexpr ComponentId autopilot{1};  // MAV_COMP_ID_AUTOPILOT1
 
 bool is_share(std::uint64_t part, std::uint64_t all, double limit) {
@@ -51,6 +51,9 @@ bool has_two_clocks(const Evidence& evidence, Source sender) {
     });
 }
 
+// Simulators that were started together send the same frames, but for the time of day. A restart may change it twice.
+bool has_other_times(const SenderStream& sender) { return sender.clocks_across >= least_clocks; }
+
 // Links that carry a good part of its frames.
 std::size_t busy_links(const SenderStream& sender) {
     return static_cast<std::size_t>(std::ranges::count_if(
@@ -84,6 +87,7 @@ std::string where_of(const Evidence& evidence, std::size_t source, const SenderS
 words::TwoSenders two_senders(const Evidence& evidence, std::size_t source, const SenderStream& sender) {
     const auto where = where_of(evidence, source, sender);
     if (has_two_clocks(evidence, sender.source)) return {where, "Their clocks (time_boot_ms) differ."};
+    if (has_other_times(sender)) return {where, "The clocks of the links differ (SYSTEM_TIME)."};
     if (sender.changes_of_kind >= least_changes)
         return {where, "The kind of vehicle in the HEARTBEATs changes to and fro."};
     if (is_mixed(evidence, source, sender)) return {where, "Two sequences of numbers mix on one link."};
@@ -115,7 +119,7 @@ const SenderStream* stream_of(const Evidence& evidence, std::size_t source, Sour
 }
 
 Arrival arrival_of(const Evidence& evidence, std::size_t source, const SenderStream& sender) {
-    if (has_two_clocks(evidence, sender.source) || sender.changes_of_kind >= least_changes ||
+    if (has_two_clocks(evidence, sender.source) || has_other_times(sender) || sender.changes_of_kind >= least_changes ||
         is_mixed(evidence, source, sender))
         return Arrival::two_senders;
     if (busy_links(sender) > 1)

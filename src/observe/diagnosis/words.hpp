@@ -42,6 +42,7 @@ struct WrongMessage {
 [[nodiscard]] Finding ring_lapped(const Listened& source, std::uint64_t records);
 [[nodiscard]] Finding too_slow(std::uint64_t frames);
 [[nodiscard]] Finding queue_drop(const Hop& hop, const HopLink& link, const NamedCount& loss);
+[[nodiscard]] Finding faults_on(const Hop& hop, const HopLink& link, std::span<const NamedCount> injected);
 [[nodiscard]] Finding ring_dropped(const Hop& hop, const NamedCount& loss);
 [[nodiscard]] Finding lost_between(const Evidence& evidence, std::size_t first, const Passage& passage);
 [[nodiscard]] Finding filtered_between(const Evidence& evidence, std::size_t first, const Passage& passage);

@@ -106,6 +106,21 @@ Finding queue_drop(const Hop& hop, const HopLink& link, const NamedCount& loss) 
     return finding;
 }
 
+Finding faults_on(const Hop& hop, const HopLink& link, std::span<const NamedCount> injected) {
+    Finding finding{.id = "faults-on",
+                    .severity = Severity::error,
+                    .where = fmt::format("{}: {}", hop.name, link.name),
+                    .link = link.name};
+    std::string counts;
+    for (const auto& one : injected) counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", one.name, one.count);
+    finding.what = fmt::format("{} dropped or damaged frames on purpose while we listened: {}.", hop.name, counts);
+    finding.why =
+        "Faults are switched on for this link, by fault=, in_fault= or out_fault= of its endpoint, or by "
+        "`mavloom ctl`. Losses that are shown behind it may be theirs.";
+    finding.remedy = fmt::format("`mavloom ctl {} fault '{}' off` ends them; then listen again.", hop.name, link.name);
+    return finding;
+}
+
 Finding ring_dropped(const Hop& hop, const NamedCount& loss) {
     Finding finding{.id = "ring-dropped", .where = fmt::format("{}: its ring", hop.name)};
     finding.what = fmt::format("{} did not write {} to its ring while we listened.", hop.name,

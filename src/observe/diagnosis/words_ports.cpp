@@ -85,7 +85,8 @@ Finding nothing_heard(const Evidence& evidence, const Listened& source) {
 Finding nothing_heard(const Evidence& evidence) {
     Finding finding{.id = "nothing-heard", .severity = Severity::error, .where = "this machine"};
     std::string tried;
-    for (const auto& source : evidence.sources) tried += (tried.empty() ? "" : ", ") + source.name;
+    for (const auto& source : evidence.sources)
+        tried += (tried.empty() ? "" : ", ") + source.name + (source.refusal.empty() ? "" : " (not open)");
     finding.what = fmt::format("Nothing was heard in {:.0f} s.", evidence.seconds());
     finding.why = fmt::format("There is no ring with a writer. These were tried: {}.", tried);
     finding.remedy =

@@ -50,9 +50,12 @@ Finding two_links(const Evidence& evidence, std::size_t source, const SenderStre
                                  percent(static_cast<double>(sender.copies_across) / static_cast<double>(sender.frames)))
                    : "Each link has a sequence of numbers of its own: two ports of one vehicle, or two vehicles.",
         shown_loss(sender.station_loss()));
-    finding.remedy = are_copies ? "Give both endpoints of the router the same group=; it then passes each frame once."
-                                : "Connect one of them only, or give both endpoints the same group= with "
-                                  "group_mode=best, so that one at a time is used.";
+    finding.remedy =
+        are_copies
+            ? "Give both endpoints of the router the same group=; it then passes each frame once. Two simulators "
+              "with one --seed and --start-time look the same: there, give one another --system."
+            : "Connect one of them only, or give both endpoints the same group= with "
+              "group_mode=best, so that one at a time is used.";
     return finding;
 }
 

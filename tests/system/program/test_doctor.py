@@ -232,6 +232,22 @@ def plant_two_links(world):
     return [f"udpin://127.0.0.1:{port}"]
 
 
+def plant_two_simulators_together(world):
+    """The same flight twice, but for the time of day."""
+    port = world.port()
+    for name in ("twin-a", "twin-b"):
+        world.spawn("sim", "--to", f"udpout://127.0.0.1:{port}", "--name", world.name(name))
+    return [f"udpin://127.0.0.1:{port}"]
+
+
+def plant_router_faults(world):
+    to, port = world.port(), world.port()
+    world.router("faults", f"udpin://127.0.0.1:{to}?in_fault=loss:0.2", f"udpout://127.0.0.1:{port}")
+    sock, vehicle = world.udp_to(to), Vehicle()
+    world.repeat(lambda n: sock.send(vehicle.next()))
+    return [f"udpin://127.0.0.1:{port}"]
+
+
 def plant_split_stream(world):
     port = world.port()
     socks, vehicle = [world.udp_to(port), world.udp_to(port)], Vehicle()
@@ -437,6 +453,8 @@ PLANTED = {
     plant_two_senders_by_clock: "two-senders",
     plant_two_stations: "two-senders",
     plant_two_links: "two-links",
+    plant_two_simulators_together: "two-senders",
+    plant_router_faults: "faults-on",
     plant_split_stream: "split-stream",
     plant_duplicates: "duplicates",
     plant_no_heartbeat: "no-heartbeat",
@@ -458,8 +476,8 @@ PLANTED = {
 }
 
 
-# Regular gaps are judged by half seconds, and a vehicle is silent after 5 s.
-LISTENS = {plant_regular_gaps: "5500ms", plant_went_silent: "8500ms"}
+# Regular gaps are judged by half seconds, a vehicle is silent after 5 s, and SYSTEM_TIME comes once a second.
+LISTENS = {plant_regular_gaps: "5500ms", plant_went_silent: "8500ms", plant_two_simulators_together: "5500ms"}
 
 
 def test_each_planted_fault_has_its_finding(spawn, tmp_path):

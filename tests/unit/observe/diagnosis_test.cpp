@@ -132,6 +132,35 @@ TEST_F(DiagnosisTest, TwoClocksAreTwoSenders) {
     EXPECT_THAT(ids(evidence), ElementsAre("two-senders"));
 }
 
+TEST_F(DiagnosisTest, CopiesButForTheirTimesAreTwoSenders) {
+    sender().links[two] = 1000;
+    sender().frames = 2000;
+    sender().copies_across = 990;
+    sender().clocks_across = 3;
+    EXPECT_THAT(ids(evidence), ElementsAre("two-senders"));
+}
+
+TEST_F(DiagnosisTest, FaultsOfARouterExplainLosses) {
+    loss().lost = 300;
+    evidence.hops_before = {{.name = "router", .links = {{.name = "serial", .losses = {{"fault_lost", 10}}}}}};
+    evidence.hops_after = evidence.hops_before;
+    EXPECT_THAT(ids(evidence), ElementsAre("lost-before"));
+    evidence.hops_after.front().links.front().losses.front().count = 310;
+    ASSERT_THAT(ids(evidence), ElementsAre("faults-on"));
+    EXPECT_THAT(diagnose(evidence).front().what, ::testing::EndsWith(": fault_lost 300."));
+}
+
+TEST_F(DiagnosisTest, APortThatIsTakenHidesNoOtherThatIsSilent) {
+    silence();
+    source().is_asked = false;
+    source().refusal = "in use";
+    source().is_taken = true;
+    EXPECT_THAT(ids(evidence), ElementsAre("port-taken"));
+    evidence.sources.push_back({.name = "udpin2", .is_asked = false});
+    ASSERT_THAT(ids(evidence), ElementsAre("port-taken", "nothing-heard"));
+    EXPECT_THAT(diagnose(evidence).back().why, ::testing::EndsWith("udpin (not open), udpin2."));
+}
+
 TEST_F(DiagnosisTest, AVehicleWithTwoPortsIsOne) {
     sender().links[two] = 500;
     sender().frames = 1500;

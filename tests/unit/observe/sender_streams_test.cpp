@@ -7,6 +7,7 @@
 #include "mavloom/msg/attitude.hpp"
 #include "mavloom/msg/heartbeat.hpp"
 #include "mavloom/msg/radio_status.hpp"
+#include "mavloom/msg/system_time.hpp"
 #include "unit/observe/fixture.hpp"
 
 namespace mavloom::observe {
@@ -55,6 +56,29 @@ TEST_F(SenderStreamsTest, ALinkThatLagsHasCopiesToo) {
     }
     EXPECT_EQ(its().copies_across, 260u);
     EXPECT_EQ(its().conflicts_across + its().missing, 0u);
+}
+
+TEST_F(SenderStreamsTest, TwoClocksAreSeenByTheirTimes) {
+    const auto hear_time = [&](int sequence, LinkId link, std::uint64_t unix_us, std::uint32_t boot_ms) {
+        auto bytes = frame_of(msg::SystemTime{.time_unix_usec = unix_us, .time_boot_ms = boot_ms});
+        bytes[4] = static_cast<std::uint8_t>(sequence);
+        streams.add({.frame = view(bytes), .link = link, .link_name = "a", .time = wall(at), .now = mono(at)});
+        at += 10ms;
+    };
+    constexpr std::uint64_t utc = 1'700'000'000'000'000;
+    hear_time(0, one, utc, 1000);
+    hear_time(0, other, utc, 1000);  // a copy
+    hear_time(7, other, utc + 20'000, 1020);
+    EXPECT_EQ(its().clocks_across, 0u) << "one clock, at two ports";
+    hear_time(7, one, utc + 21'000, 1020);
+    EXPECT_EQ(its().clocks_across, 1u) << "another time at the same number";
+    hear_time(30, other, utc + 900'000, 1000);
+    EXPECT_EQ(its().clocks_across, 2u) << "another start";
+    hear_time(31, one, 0, 5000);
+    EXPECT_EQ(its().clocks_across, 2u) << "no time of day";
+    at += 2s;
+    hear_time(32, one, utc + 9'000'000, 10);
+    EXPECT_EQ(its().clocks_across, 2u) << "started again";
 }
 
 TEST_F(SenderStreamsTest, CopiesOnOneLink) {
