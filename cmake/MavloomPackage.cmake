@@ -39,7 +39,7 @@ set(CPACK_DEBIAN_MAVLOOM_DEVELOPMENT_PACKAGE_NAME libmavloom-dev)
 set(CPACK_DEBIAN_MAVLOOM_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_MAVLOOM_DEVELOPMENT_PACKAGE_SHLIBDEPS ON)  # of the code generator
 set(CPACK_DEBIAN_MAVLOOM_DEVELOPMENT_PACKAGE_DEPENDS
-    "libfmt-dev, libexpected-dev, libpugixml-dev, libsodium-dev, libtomlplusplus-dev, libgeographiclib-dev, \
+    "libfmt-dev, libexpected-dev, libpugixml-dev, libsodium-dev, libtomlplusplus-dev, \
 liblzma-dev, pkg-config")
 set(CPACK_COMPONENT_MAVLOOM_DEVELOPMENT_DESCRIPTION "MAVLink routing, framing and simulation: C++ library
 The headers, static libraries and code generator behind the program mavloom,

@@ -10,7 +10,7 @@ cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 # Link only the third-party headers that are the same on every architecture: /usr/include also has headers of this one.
 outside=$(mktemp -d)
 trap 'rm -r "$outside"' EXIT
-names=(boost eigen3/Eigen fmt GeographicLib lzma lzma.h nlohmann pugiconfig.hpp pugixml.hpp sodium sodium.h tl toml++)
+names=(boost eigen3/Eigen fmt lzma lzma.h nlohmann pugiconfig.hpp pugixml.hpp sodium sodium.h tl toml++)
 ln -s "${names[@]/#//usr/include/}" "$outside"
 flags=(-std=c++20 -fsyntax-only -Wall -Wextra -Wno-psabi -Wno-subobject-linkage -Wno-restrict -DFMT_HEADER_ONLY
        "-DMAVLOOM_PAGE_FOLDER=\"$build/generated/page\"" -Iinclude -Isrc "-I$build/generated/include"

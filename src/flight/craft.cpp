@@ -5,6 +5,7 @@
 
 #include "flight/physics/atmosphere.hpp"
 #include "flight/physics/magnetic_field.hpp"
+#include "flight/physics/math.hpp"
 
 namespace mavloom::flight {
 
@@ -130,7 +131,7 @@ const GeoPoint& Craft::position() const {
 
 double Craft::speed() const noexcept {
     const Vector3& velocity = estimate().velocity;
-    return std::hypot(velocity.x(), velocity.y());
+    return math::hypot(velocity.x(), velocity.y());
 }
 
 void Craft::acquire_gps() noexcept {

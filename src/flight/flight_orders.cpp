@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "flight/flight.hpp"
+#include "flight/physics/math.hpp"
 #include "mavloom/base/counted.hpp"
 
 namespace mavloom::flight {
@@ -153,12 +154,12 @@ void Flight::on_target(const GeoPoint& target, const Vector3& velocity) {
     const Tuning& t = tuning();
     const Vector3 there = frame().to_local(target);
     const Vector3 towards_us = estimate().position - there;
-    const double speed = std::hypot(velocity.x(), velocity.y());
+    const double speed = math::hypot(velocity.x(), velocity.y());
     const bool is_moving = std::isfinite(speed) && speed > standing;
-    const double side = is_moving ? std::atan2(velocity.y(), velocity.x()) + t.follow_angle
-                                  : std::atan2(towards_us.y(), towards_us.x());
+    const double side = is_moving ? math::atan2(velocity.y(), velocity.x()) + t.follow_angle
+                                  : math::atan2(towards_us.y(), towards_us.x());
     const double ground = home() ? home()->altitude : ground_altitude();
-    const Vector3 place(there.x() + t.follow_distance * std::cos(side), there.y() + t.follow_distance * std::sin(side),
+    const Vector3 place(there.x() + t.follow_distance * math::cos(side), there.y() + t.follow_distance * math::sin(side),
                         frame().origin().altitude - ground - t.follow_height);
     navigator_.guidance().stay(place, wrap_pi(side + pi));
 }

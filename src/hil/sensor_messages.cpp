@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flight/physics/math.hpp"
 #include "flight/wire_units.hpp"
 #include "mavloom/hil/lock_step.hpp"
 #include "mavloom/msg/distance_sensor.hpp"
@@ -75,7 +76,7 @@ double distance_to_ground(const SensedVehicle& vehicle) {
 std::uint16_t course_of(const Vector3& velocity) noexcept {
     constexpr double slowest = 0.1;  // m/s
     if (flight::horizontal_length(velocity) < slowest) return UINT16_MAX;
-    return flight::to_centidegrees(flight::wrap_2pi(std::atan2(velocity.y(), velocity.x())));
+    return flight::to_centidegrees(flight::wrap_2pi(flight::math::atan2(velocity.y(), velocity.x())));
 }
 
 }  // namespace

@@ -96,6 +96,8 @@ struct Body {
 [[nodiscard]] CopterBody body_of(BodyPreset preset);
 [[nodiscard]] PlaneBody body_of(PlanePreset preset);
 [[nodiscard]] RoverBody body_of(RoverPreset preset);
+// Of a rover whose front wheels turn by up to `steering_deg`.
+[[nodiscard]] double turn_radius(double wheel_base_m, double steering_deg) noexcept;
 // The highest lift coefficient: that at the stall.
 [[nodiscard]] double highest_lift(const PlaneBody& body) noexcept;
 // The lowest airspeed at which the plane can fly level at sea level, in m/s.

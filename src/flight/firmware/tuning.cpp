@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "flight/firmware/tables.hpp"
+#include "flight/physics/math.hpp"
 
 namespace mavloom::flight {
 
@@ -156,7 +157,7 @@ void read_px4_rover(const Reader& read, Tuning& t) {
     t.acceleration = std::max(0.1, read.number("RO_ACCEL_LIM", 3, -1, 100));
     t.max_yaw_rate = to_radians(read.number("RO_YAW_RATE_LIM", 100, 5, 720));
     t.rover_turn_radius = read.number("RA_WHEEL_BASE", 0.5, 0.05, 100) /
-                          std::tan(read.number("RA_MAX_STR_ANG", 0.5236, 0.05, 1.5));
+                          math::tan(read.number("RA_MAX_STR_ANG", 0.5236, 0.05, 1.5));
 }
 
 // ArduPilot has two levels, with an action each. Without thresholds in mAh the vehicle only warns, at the first.
@@ -224,7 +225,7 @@ void read_ardupilot_safety(const Reader& read, Kind kind, Tuning& t) {
 void read_ardupilot_return(const Reader& read, Tuning& t) {
     t.return_altitude = read.centi("RTL_ALT", 15, 0, 10000);
     t.return_min_distance = t.return_altitude / std::max(0.5, read.number("RTL_CONE_SLOPE", 3, 0, 10));
-    t.return_cone = std::atan(1 / std::max(0.5, read.number("RTL_CONE_SLOPE", 3, 0, 10)));
+    t.return_cone = math::atan(1 / std::max(0.5, read.number("RTL_CONE_SLOPE", 3, 0, 10)));
     const double last_height = read.centi("RTL_ALT_FINAL", 0, 0, 10000);
     t.return_descend_altitude = last_height > 0 ? last_height : t.land_slow_height;
     t.return_land_delay = last_height > 0 ? -1 : read.number("RTL_LOIT_TIME", 5000, 0, 60000) / 1000;

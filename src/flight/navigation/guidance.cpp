@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flight/physics/math.hpp"
 #include "flight/pilot/path.hpp"
 
 namespace mavloom::flight {
@@ -20,7 +21,7 @@ constexpr double glide_ratio = 12;   // metres ahead for each metre of height, w
 constexpr double far_away = 10'000;  // m, the end of a plane's climb-out
 
 Vector3 along(double bearing, double distance) {
-    return {std::cos(bearing) * distance, std::sin(bearing) * distance, 0};
+    return {math::cos(bearing) * distance, math::sin(bearing) * distance, 0};
 }
 
 }  // namespace
@@ -78,7 +79,7 @@ void Guidance::land(const Vector3& spot, double yaw) {
     const Vector3& wind = context_.craft.wind();
     const Vector3 way = spot_ - context_.craft.estimate().position;
     const bool has_wind = horizontal_length(wind) > 2;
-    const double course = has_wind ? std::atan2(-wind.y(), -wind.x()) : std::atan2(way.y(), way.x());
+    const double course = has_wind ? math::atan2(-wind.y(), -wind.x()) : math::atan2(way.y(), way.x());
     begin(Manoeuvre::approach, spot_ - along(course, final_length) - Vector3(0, 0, final_height), course);
 }
 
@@ -87,7 +88,7 @@ bool Guidance::begins_final() {
     const Estimate& now = context_.craft.estimate();
     const bool is_leg = manoeuvre_ == Manoeuvre::leg;
     const Vector3 entry = is_leg ? goal_ : now.position, way = spot_ - entry;
-    const double length = horizontal_length(way), turn = std::atan2(way.y(), way.x()) - direction_of(now.velocity, nan);
+    const double length = horizontal_length(way), turn = math::atan2(way.y(), way.x()) - direction_of(now.velocity, nan);
     const double greatest_turn = is_leg ? pi / 2 : pi / 6;
     if (length < shortest_final || way.z() > steepest_final * length || !(std::abs(wrap_pi(turn)) < greatest_turn))
         return false;
@@ -101,7 +102,7 @@ void Guidance::land_ahead() {
     const Estimate& now = context_.craft.estimate();
     if (context_.kind() != Kind::plane) return land(now.position);
     const double distance = std::max(200.0, glide_ratio * context_.craft.height());
-    spot_ = now.position + along(std::atan2(now.velocity.y(), now.velocity.x()), distance);
+    spot_ = now.position + along(math::atan2(now.velocity.y(), now.velocity.x()), distance);
     spot_.z() = context_.craft.ground_z();
     begin(Manoeuvre::final, spot_);
 }
@@ -242,7 +243,7 @@ void Guidance::steer_circle() {
     setpoint_.steering = Steering::circle;
     setpoint_.radius = circle.radius;
     const Vector3 inwards = way(), velocity = context_.craft.estimate().velocity;
-    const double bearing = std::atan2(inwards.y(), inwards.x()), side = circle.radius < 0 ? -1 : 1;
+    const double bearing = math::atan2(inwards.y(), inwards.x()), side = circle.radius < 0 ? -1 : 1;
     const double distance = std::max(horizontal_length(inwards), 1.0);
     const bool is_on_circle = std::abs(distance - std::abs(circle.radius)) < 2 + 0.3 * std::abs(circle.radius);
     if (is_on_circle && std::isfinite(last_bearing_)) turned_ += side * wrap_pi(bearing - last_bearing_);

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "flight/physics/math.hpp"
+
 namespace mavloom::flight {
 
 namespace {
@@ -30,9 +32,9 @@ double Heading::yaw_for(const Vector3& way, double wanted) noexcept {
     } else if (std::isfinite(ordered_)) {
         kept_ = ordered_;
     } else if (interest_) {
-        if (std::hypot(view.x(), view.y()) > close) kept_ = std::atan2(view.y(), view.x());
-    } else if (std::hypot(way.x(), way.y()) > close) {
-        kept_ = std::atan2(way.y(), way.x());
+        if (math::hypot(view.x(), view.y()) > close) kept_ = math::atan2(view.y(), view.x());
+    } else if (math::hypot(way.x(), way.y()) > close) {
+        kept_ = math::atan2(way.y(), way.x());
     }
     return kept_;
 }

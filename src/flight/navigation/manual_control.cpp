@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flight/physics/math.hpp"
+
 namespace mavloom::flight {
 
 namespace {
@@ -26,7 +28,7 @@ double climb_of(const Sticks& sticks) noexcept { return beyond_dead_zone(2 * sti
 
 // Forward and right, rotated by the yaw.
 Vector3 rotated(double forward, double right, double yaw) {
-    const double c = std::cos(yaw), s = std::sin(yaw);
+    const double c = math::cos(yaw), s = math::sin(yaw);
     return {forward * c - right * s, forward * s + right * c, nan};
 }
 
@@ -73,7 +75,7 @@ Setpoint ManualControl::steer_quad(Behaviour behaviour, const Sticks& sticks) {
     const double forward = beyond_dead_zone(sticks.pitch), right = beyond_dead_zone(sticks.roll);
     const double heading = context_.craft.estimate().euler.yaw;
     if (behaviour == Behaviour::altitude) {
-        setpoint.acceleration = rotated(forward, right, heading) * (gravity * std::tan(stick_tilt));
+        setpoint.acceleration = rotated(forward, right, heading) * (gravity * math::tan(stick_tilt));
     } else {
         setpoint.velocity = rotated(forward, right, heading) * setpoint.limits.horizontal;
     }
@@ -104,7 +106,7 @@ Setpoint ManualControl::steer_plane(Behaviour behaviour, const Sticks& sticks) c
     }
     const double up = beyond_dead_zone(-sticks.pitch), turn = beyond_dead_zone(sticks.roll);
     setpoint.steering = Steering::trajectory;
-    if (turn != 0) setpoint.yaw_rate = gravity * std::tan(stick_bank * turn) / setpoint.limits.horizontal;
+    if (turn != 0) setpoint.yaw_rate = gravity * math::tan(stick_bank * turn) / setpoint.limits.horizontal;
     if (up != 0) setpoint.velocity.z() = up > 0 ? -up * setpoint.limits.up : -up * setpoint.limits.down;
     if (context_.is_on_ground() && sticks.throttle > 0.5) setpoint.velocity.z() = -setpoint.limits.up;
     return setpoint;

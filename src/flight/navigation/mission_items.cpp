@@ -8,6 +8,7 @@
 
 #include "flight/navigation/mission_report.hpp"
 #include "flight/navigation/mission_runner.hpp"
+#include "flight/physics/math.hpp"
 #include "mavloom/msg/enums/mav_cmd.hpp"
 #include "mavloom/msg/enums/mav_frame.hpp"
 
@@ -140,8 +141,8 @@ bool MissionRunner::leaves_circle() const {
     if ((*next - guidance_.goal()).head<2>().norm() < 1.05 * across) return true;  // there is no tangent
     const Estimate& now = context_.craft.estimate();
     const Vector3 way = *next - now.position;
-    const double course = std::atan2(now.velocity.y(), now.velocity.x());
-    const double to_turn = std::copysign(1, radius()) * wrap_pi(std::atan2(way.y(), way.x()) - course);
+    const double course = math::atan2(now.velocity.y(), now.velocity.x());
+    const double to_turn = std::copysign(1, radius()) * wrap_pi(math::atan2(way.y(), way.x()) - course);
     constexpr double roll_out = 0.6, tolerance = 0.03;  // s, rad
     return std::abs(to_turn) < tolerance + roll_out * now.velocity.head<2>().norm() / across;
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "flight/physics/math.hpp"
+
 namespace mavloom::flight {
 
 namespace {
@@ -60,7 +62,7 @@ void Navigator::enter_orbit() {
     const double usual = context_.tuning.loiter_radius;
     const double radius = context_.kind() == Kind::quad ? std::clamp(usual, -usual_orbit, usual_orbit) : usual;
     const double distance = std::abs(radius);
-    const Vector3 ahead(std::cos(now.euler.yaw) * distance, std::sin(now.euler.yaw) * distance, 0);
+    const Vector3 ahead(math::cos(now.euler.yaw) * distance, math::sin(now.euler.yaw) * distance, 0);
     orbit({.center = now.position + ahead, .radius = radius, .yaw = OrbitYaw::to_center}, 0);
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flight/physics/math.hpp"
+
 namespace mavloom::flight {
 
 // The return altitude, or above it, where the vehicle is now. Near home a cone allows a lower one.
@@ -13,12 +15,12 @@ double ReturnPath::return_z() const {
     if (context_.kind() == Kind::rover) return home().z();
     const Tuning& tuning = context_.tuning;
     const Vector3 way = home() - context_.craft.estimate().position;
-    const double distance = std::hypot(way.x(), way.y());
+    const double distance = math::hypot(way.x(), way.y());
     double height = tuning.return_altitude;
     if (distance < tuning.return_min_distance) {
         height = std::min(height, tuning.return_descend_altitude);
     } else if (tuning.return_cone > 0.01 && tuning.return_cone < to_radians(89)) {
-        height = std::clamp(distance / std::tan(tuning.return_cone), std::min(tuning.return_descend_altitude, height),
+        height = std::clamp(distance / math::tan(tuning.return_cone), std::min(tuning.return_descend_altitude, height),
                             height);
     }
     return std::min(home().z() - height, context_.craft.estimate().position.z());

@@ -3,7 +3,8 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
+
+#include "flight/physics/math.hpp"
 
 namespace mavloom::flight {
 
@@ -18,10 +19,10 @@ inline constexpr double pressure_exponent = 5.255876;    // g M / (R L)
 }
 // hPa.
 [[nodiscard]] inline double pressure_at(double altitude) noexcept {
-    return sea_level_pressure * std::pow(temperature_at(altitude) / sea_level_temperature, pressure_exponent);
+    return sea_level_pressure * math::pow(temperature_at(altitude) / sea_level_temperature, pressure_exponent);
 }
 [[nodiscard]] inline double altitude_of(double pressure) noexcept {
-    const double ratio = std::pow(pressure / sea_level_pressure, 1 / pressure_exponent);
+    const double ratio = math::pow(pressure / sea_level_pressure, 1 / pressure_exponent);
     return sea_level_temperature / temperature_lapse * (1 - ratio);
 }
 // kg/m^3.

@@ -2,7 +2,7 @@
 // Positions on the WGS 84 ellipsoid, and the local frame around an origin. Private to flight, sim and hil.
 //
 // The local frame is north, east, down in metres. Its horizontal plane is the azimuthal equidistant projection around
-// the origin (GeographicLib): a point's distance and bearing from the origin are those of the geodesic.
+// the origin: a point's distance and bearing from the origin are those of the geodesic.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,6 +11,8 @@
 namespace mavloom::flight {
 
 using Vector3 = Eigen::Vector3d;
+
+inline constexpr double semi_major = 6'378'137, flattening = 1 / 298.257223563;  // m; of WGS 84
 
 struct GeoPoint {
     double latitude = 0, longitude = 0;  // degrees
@@ -32,8 +34,6 @@ private:
 
 // The geodesic between two points, without their altitudes.
 [[nodiscard]] double distance_m(const GeoPoint& from, const GeoPoint& to);
-// Initial bearing, clockwise from north, 0 to 2 pi.
-[[nodiscard]] double bearing_rad(const GeoPoint& from, const GeoPoint& to);
 
 // Degrees times 1e7, rounded, as messages carry them.
 [[nodiscard]] std::int32_t to_degrees_e7(double degrees) noexcept;

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "flight/physics/math.hpp"
+
 namespace mavloom::flight {
 
 namespace {
@@ -123,15 +125,14 @@ struct Spherical {
     double turn;                  // rad, from the geocentric to the geodetic vertical
 };
 Spherical to_spherical(const GeoPoint& point) {
-    constexpr double equator = 6'378'137, flattening = 1 / 298.257223563;  // WGS 84
     constexpr double squared = flattening * (2 - flattening);
-    const double latitude = to_radians(point.latitude), sine = std::sin(latitude);
-    const double curvature = equator / std::sqrt(1 - squared * sine * sine);
-    const double out = (curvature + point.altitude) * std::cos(latitude);
+    const double latitude = to_radians(point.latitude), sine = math::sin(latitude);
+    const double curvature = semi_major / std::sqrt(1 - squared * sine * sine);
+    const double out = (curvature + point.altitude) * math::cos(latitude);
     const double up = (curvature * (1 - squared) + point.altitude) * sine;
-    const double radius = std::hypot(out, up);
+    const double radius = math::hypot(out, up);
     constexpr double smallest = 1e-10;  // at a pole, east is still the limit of east nearby
-    return {radius, up / radius, std::max(out / radius, smallest), std::atan2(up, out) - latitude};
+    return {radius, up / radius, std::max(out / radius, smallest), math::atan2(up, out) - latitude};
 }
 
 // Schmidt's quasi-normal associated Legendre functions of the sine of the latitude, and their derivatives by the
@@ -178,7 +179,7 @@ Vector3 sum_of(const Spherical& at, double longitude, double years) {
             const std::size_t place = place_of(n, m);
             const Coefficient& c = coefficients[place - 1];
             const double g = c.g + years * c.g_rate, h = c.h + years * c.h_rate;
-            const double cos_m = std::cos(m * longitude), sin_m = std::sin(m * longitude);
+            const double cos_m = math::cos(m * longitude), sin_m = math::sin(m * longitude);
             const double even = g * cos_m + h * sin_m, odd = g * sin_m - h * cos_m;
             field += power * Vector3(-even * p.slope[place], m * odd * p.value[place] / at.cosine,
                                      -(n + 1) * even * p.value[place]);
@@ -193,7 +194,7 @@ Vector3 sum_of(const Spherical& at, double longitude, double years) {
 Vector3 magnetic_field(const GeoPoint& point, double year) {
     const Spherical at = to_spherical(point);
     const Vector3 field = sum_of(at, to_radians(point.longitude), year - epoch);
-    const double sine = std::sin(at.turn), cosine = std::cos(at.turn);
+    const double sine = math::sin(at.turn), cosine = math::cos(at.turn);
     constexpr double gauss = 1e-5;  // per nT
     return gauss * Vector3(field.x() * cosine - field.z() * sine, field.y(), field.x() * sine + field.z() * cosine);
 }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "flight/physics/math.hpp"
 #include "flight/physics/random.hpp"
 
 namespace mavloom::flight {
@@ -25,7 +26,7 @@ private:
 class GaussMarkov {
 public:
     GaussMarkov(double sigma, double tau, double dt) noexcept
-        : decay_(tau > 0 ? std::exp(-dt / tau) : 0), drive_(sigma * std::sqrt(1 - decay_ * decay_)) {}
+        : decay_(tau > 0 ? math::exp(-dt / tau) : 0), drive_(sigma * std::sqrt(1 - decay_ * decay_)) {}
     void next(Random& random) noexcept { value_ = decay_ * value_ + drive_ * random.normal(); }
     [[nodiscard]] double value() const noexcept { return value_; }
 
@@ -57,7 +58,7 @@ private:
 // A disturbance that fades: each `kick` adds to it, and it decays with time constant `tau`.
 class ExponentialDecay {
 public:
-    ExponentialDecay(double tau, double dt) noexcept : decay_(std::exp(-dt / tau)) {}
+    ExponentialDecay(double tau, double dt) noexcept : decay_(math::exp(-dt / tau)) {}
     void kick(double amount) noexcept { value_ += amount; }
     void next() noexcept { value_ *= decay_; }
     [[nodiscard]] double value() const noexcept { return value_; }

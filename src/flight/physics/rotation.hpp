@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "flight/physics/math.hpp"
+
 namespace mavloom::flight {
 
 using Vector3 = Eigen::Vector3d;
@@ -32,21 +34,26 @@ struct Euler {
 
 [[nodiscard]] inline Euler to_euler(const Quaternion& q) noexcept {
     const double sine = std::clamp(2 * (q.w() * q.y() - q.z() * q.x()), -1.0, 1.0);
-    return {std::atan2(2 * (q.w() * q.x() + q.y() * q.z()), 1 - 2 * (q.x() * q.x() + q.y() * q.y())), std::asin(sine),
-            std::atan2(2 * (q.w() * q.z() + q.x() * q.y()), 1 - 2 * (q.y() * q.y() + q.z() * q.z()))};
+    return {math::atan2(2 * (q.w() * q.x() + q.y() * q.z()), 1 - 2 * (q.x() * q.x() + q.y() * q.y())), math::asin(sine),
+            math::atan2(2 * (q.w() * q.z() + q.x() * q.y()), 1 - 2 * (q.y() * q.y() + q.z() * q.z()))};
+}
+// A turn around a unit vector. (Eigen's AngleAxis calls the C library.)
+[[nodiscard]] inline Quaternion turn_around(const Vector3& axis, double angle) noexcept {
+    const double sine = math::sin(angle / 2);
+    return {math::cos(angle / 2), sine * axis.x(), sine * axis.y(), sine * axis.z()};
 }
 [[nodiscard]] inline Quaternion to_quaternion(const Euler& e) {
-    return Quaternion(Eigen::AngleAxisd(e.yaw, Vector3::UnitZ()) * Eigen::AngleAxisd(e.pitch, Vector3::UnitY()) *
-                      Eigen::AngleAxisd(e.roll, Vector3::UnitX()));
+    return turn_around(Vector3::UnitZ(), e.yaw) * turn_around(Vector3::UnitY(), e.pitch) *
+           turn_around(Vector3::UnitX(), e.roll);
 }
 [[nodiscard]] inline double yaw_of(const Quaternion& q) noexcept {
-    return std::atan2(2 * (q.w() * q.z() + q.x() * q.y()), 1 - 2 * (q.y() * q.y() + q.z() * q.z()));
+    return math::atan2(2 * (q.w() * q.z() + q.x() * q.y()), 1 - 2 * (q.y() * q.y() + q.z() * q.z()));
 }
 // The attitude after turning with constant body rates (rad/s) for `dt` seconds. Exact; the result is normalised.
 [[nodiscard]] inline Quaternion integrate(const Quaternion& q, const Vector3& rates, double dt) {
     const double angle = rates.norm() * dt;
     if (angle < 1e-12) return q;
-    return (q * Quaternion(Eigen::AngleAxisd(angle, rates.normalized()))).normalized();
+    return (q * turn_around(rates.normalized(), angle)).normalized();
 }
 
 }  // namespace mavloom::flight

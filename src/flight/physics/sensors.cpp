@@ -131,7 +131,7 @@ void Sensors::step_magnetometer(const Quaternion& attitude) {
     if (is_frozen(failures_.magnetometer)) return;
     Vector3 field = magnetic_field_;
     if (deceptions_.compass_turn != 0)
-        field = Eigen::AngleAxisd(-deceptions_.compass_turn, Vector3::UnitZ()) * magnetic_field_;
+        field = turn_around(Vector3::UnitZ(), -deceptions_.compass_turn) * magnetic_field_;
     imu_.magnetic = attitude.conjugate() * field + jitter;
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "flight/physics/math.hpp"
 #include "flight/physics/noise.hpp"
 #include "flight/plant/plant.hpp"
 #include "mavloom/flight/options.hpp"
@@ -14,8 +15,8 @@ class WindField {
 public:
     explicit WindField(const Wind& options, std::uint64_t seed, double dt = step_s)
         : random_(seed),
-          steady_(options.speed_m_s * std::cos(to_radians(options.direction_deg)),
-                  options.speed_m_s * std::sin(to_radians(options.direction_deg)), 0),
+          steady_(options.speed_m_s * math::cos(to_radians(options.direction_deg)),
+                  options.speed_m_s * math::sin(to_radians(options.direction_deg)), 0),
           velocity_(steady_),
           gusts_{SmoothWander(options.gust_m_s, gust_time, dt), SmoothWander(options.gust_m_s, gust_time, dt),
                  SmoothWander(options.gust_m_s / 3, gust_time, dt)},

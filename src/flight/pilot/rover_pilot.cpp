@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flight/physics/math.hpp"
 #include "flight/pilot/path.hpp"
 
 namespace mavloom::flight {
@@ -90,7 +91,9 @@ RoverPilot::Demand RoverPilot::drive_with(const Setpoint& setpoint) const {
         return {};
     }
     const Vector3& velocity = setpoint.velocity;
-    const auto along = [&](double course) { return velocity.x() * std::cos(course) + velocity.y() * std::sin(course); };
+    const auto along = [&](double course) {
+        return velocity.x() * math::cos(course) + velocity.y() * math::sin(course);
+    };
     if (std::isfinite(setpoint.yaw_rate)) return turn(finite_or(setpoint.yaw_rate, 0, -4, 4), along(heading_));
     if (std::isfinite(setpoint.yaw)) return turn_to(setpoint.yaw, 0, along(setpoint.yaw));
     const double speed = horizontal_length(velocity);
@@ -117,7 +120,7 @@ RoverPilot::Demand RoverPilot::turn(double turn_rate, double speed) const {
 RoverPilot::Demand RoverPilot::turn_to(double course, double turn_rate, double speed) const {
     const double off = wrap_pi(course - heading_);
     const double slow = std::sqrt(body_.grip_m_s2 * limits_.turn_radius) / 2;
-    const double most = std::max(std::abs(speed) * std::cos(off), slow);
+    const double most = std::max(std::abs(speed) * math::cos(off), slow);
     Demand demand = turn(turn_rate + heading_gain * off, std::clamp(speed, -most, most));
     demand.course = course;
     return demand;
@@ -142,7 +145,7 @@ void RoverPilot::report(const Demand& demand) {
     targets_ = {.attitude = to_quaternion({0, 0, course}),
                 .rates = {0, 0, demand.speed * demand.curvature},
                 .thrust = std::clamp(demand.speed / limits_.horizontal, -1.0, 1.0),
-                .velocity = {demand.speed * std::cos(course), demand.speed * std::sin(course), 0}};
+                .velocity = {demand.speed * math::cos(course), demand.speed * math::sin(course), 0}};
 }
 
 }  // namespace mavloom::flight

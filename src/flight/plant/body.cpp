@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "flight/physics/math.hpp"
 #include "flight/physics/rotation.hpp"
 
 namespace mavloom::flight {
@@ -106,7 +107,7 @@ PlaneBody aerosonde() {
 // From PX4's airframe 10045: mass, wheel base 0.321 m, steering angle 30 degrees, speed at full output. The thrust is
 // ours.
 RoverBody sih() {
-    return {.mass_kg = 20, .thrust_n = 100, .top_speed_m_s = 3.2, .turn_radius_m = 0.321 / std::tan(to_radians(30))};
+    return {.mass_kg = 20, .thrust_n = 100, .top_speed_m_s = 3.2, .turn_radius_m = turn_radius(0.321, 30)};
 }
 
 }  // namespace
@@ -123,6 +124,10 @@ CopterBody body_of(BodyPreset preset) {
 PlaneBody body_of(PlanePreset preset) { return preset == PlanePreset::aerosonde ? aerosonde() : PlaneBody{}; }
 RoverBody body_of(RoverPreset preset) { return preset == RoverPreset::sih ? sih() : RoverBody{}; }
 
+double turn_radius(double wheel_base_m, double steering_deg) noexcept {
+    return wheel_base_m / math::tan(to_radians(steering_deg));
+}
+
 double highest_lift(const PlaneBody& body) noexcept {
     return body.lift_zero + body.lift_slope * to_radians(body.stall_deg);
 }
@@ -137,14 +142,14 @@ void set_frame(CopterBody& body, Frame frame, double arm_m) {
     body.rotors = {};
     for (std::size_t i = 0; i < body.rotor_count; ++i) {
         const double bearing = to_radians(layout.places[i].bearing_deg + layout.turned_deg);
-        body.rotors[i] = {arm_m * std::cos(bearing), arm_m * std::sin(bearing), layout.places[i].turn};
+        body.rotors[i] = {arm_m * math::cos(bearing), arm_m * math::sin(bearing), layout.places[i].turn};
     }
 }
 
 double arm_of(const CopterBody& body) {
     double longest = 0;
     for (const Rotor& rotor : std::span(body.rotors).first(body.rotor_count))
-        longest = std::max(longest, std::hypot(rotor.forward_m, rotor.right_m));
+        longest = std::max(longest, math::hypot(rotor.forward_m, rotor.right_m));
     return longest;
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flight/physics/math.hpp"
+
 namespace mavloom::flight {
 
 namespace {
@@ -74,7 +76,7 @@ double FixedWing::gear_force(double height) const {
 
 Vector3 FixedWing::with_wheels(const Vector3& velocity, double load, const Now& now, double dt) const {
     const double yaw = now.euler.yaw;
-    const Vector3 forward{std::cos(yaw), std::sin(yaw), 0}, right{-forward.y(), forward.x(), 0};
+    const Vector3 forward{math::cos(yaw), math::sin(yaw), 0}, right{-forward.y(), forward.x(), 0};
     const auto slowed = [&](double speed, double friction) {
         return std::copysign(std::max(std::abs(speed) - friction * load / body_.mass_kg * dt, 0.0), speed);
     };

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flight/physics/math.hpp"
+
 namespace mavloom::flight {
 
 namespace {
@@ -19,7 +21,7 @@ constexpr double slack = 0.1;                           // of the weight: with l
 
 // How far a first-order lag follows its input within `dt`.
 double share_of(double dt, double time_constant) noexcept {
-    return time_constant > 0 ? -std::expm1(-dt / time_constant) : 1;
+    return time_constant > 0 ? -math::expm1(-dt / time_constant) : 1;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <limits>
 #include <memory>
 
+#include "flight/physics/math.hpp"
 #include "flight/physics/rotation.hpp"
 #include "mavloom/flight/options.hpp"
 
@@ -22,7 +23,7 @@ inline const Vector3 no_vector{nan, nan, nan};
 // True if an axis is given.
 [[nodiscard]] inline bool has_any(const Vector3& vector) noexcept { return !vector.array().isNaN().all(); }
 [[nodiscard]] inline double horizontal_length(const Vector3& vector) noexcept {
-    return std::hypot(vector.x(), vector.y());
+    return math::hypot(vector.x(), vector.y());
 }
 
 // Steps of a vehicle: 250 Hz.

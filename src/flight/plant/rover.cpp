@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flight/physics/math.hpp"
+
 namespace mavloom::flight {
 
 namespace {
@@ -27,11 +29,11 @@ void Rover::step(const Outputs& outputs, const Surroundings& around, double dt) 
     const double before = speed_;
     drive(servo_output(outputs[0]) * std::min(around.supply, 1.0), dt);
     steer(servo_output(outputs[1]), dt);
-    speed_ += (around.push.x() * std::cos(heading_) + around.push.y() * std::sin(heading_)) * dt;
+    speed_ += (around.push.x() * math::cos(heading_) + around.push.y() * math::sin(heading_)) * dt;
     const Vector3 rates{0, 0, speed_ * curvature_};
     heading_ += rates.z() * dt;
     const double sinking = std::clamp((around.ground - motion_.position.z()) / dt, -2.0, 2.0);
-    const Vector3 velocity{speed_ * std::cos(heading_), speed_ * std::sin(heading_), sinking};
+    const Vector3 velocity{speed_ * math::cos(heading_), speed_ * math::sin(heading_), sinking};
     integrate_step((velocity - motion_.velocity) / dt, rates, dt);
     air_velocity_ = motion_.velocity - around.wind;
     thrust_ = std::abs(servo_output(outputs[0]));

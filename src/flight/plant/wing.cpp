@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flight/physics/math.hpp"
+
 namespace mavloom::flight::wing {
 
 namespace {
@@ -31,15 +33,15 @@ Airflow airflow(const Vector3& body_velocity, double density) {
     const double speed = body_velocity.norm(), ahead = std::max(body_velocity.x(), 0.0);
     return {.body = body_velocity,
             .speed = speed,
-            .attack = std::atan2(body_velocity.z(), body_velocity.x()),
-            .slip = speed < 0.1 ? 0 : std::asin(std::clamp(body_velocity.y() / speed, -1.0, 1.0)),
+            .attack = math::atan2(body_velocity.z(), body_velocity.x()),
+            .slip = speed < 0.1 ? 0 : math::asin(std::clamp(body_velocity.y() / speed, -1.0, 1.0)),
             .pressure = 0.5 * density * speed * speed,
             .head_pressure = 0.5 * density * ahead * ahead};
 }
 
 double lift_coefficient(const PlaneBody& body, double attack) {
     const double stalled = stalled_share(body, attack);
-    const double sine = std::sin(attack), cosine = std::cos(attack);
+    const double sine = math::sin(attack), cosine = math::cos(attack);
     const double plate = 2 * std::copysign(sine * sine, attack) * cosine;
     return (1 - stalled) * (body.lift_zero + body.lift_slope * attack) + stalled * plate;
 }
@@ -47,7 +49,7 @@ double lift_coefficient(const PlaneBody& body, double attack) {
 double drag_coefficient(const PlaneBody& body, double attack) {
     const double stalled = stalled_share(body, attack), most = fully_stalled(body);
     const double lift = body.lift_zero + body.lift_slope * std::clamp(attack, -most, most);
-    const double sine = std::sin(attack);
+    const double sine = math::sin(attack);
     return body.drag_zero + body.induced * lift * lift + stalled * 2 * sine * sine;
 }
 
@@ -55,7 +57,7 @@ Vector3 force(const PlaneBody& body, const Airflow& air, double motor) {
     Vector3 sum{motor * motor * full_thrust(body, air.speed), 0, 0};
     if (air.speed < 0.1) return sum;
     const double scale = air.pressure * body.area_m2;
-    const Vector3 up{std::sin(air.attack), 0, -std::cos(air.attack)};
+    const Vector3 up{math::sin(air.attack), 0, -math::cos(air.attack)};
     sum += scale * lift_coefficient(body, air.attack) * up;
     sum -= scale * drag_coefficient(body, air.attack) / air.speed * air.body;
     sum.y() -= scale * body.side_slope * air.body.y() / air.speed;

@@ -2,8 +2,8 @@
 #include "flight/supervision/fence.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "flight/physics/math.hpp"
 #include "mavloom/msg/enums/mav_cmd.hpp"
 
 namespace mavloom::flight {
@@ -68,7 +68,7 @@ unsigned Fence::breached_limits() const {
     if (!context_.craft.home()) return 0;
     const Vector3 way = context_.craft.estimate().position - context_.craft.home_place();
     const Tuning& tuning = context_.tuning;
-    const bool is_far = tuning.fence_radius > 0 && std::hypot(way.x(), way.y()) > tuning.fence_radius;
+    const bool is_far = tuning.fence_radius > 0 && math::hypot(way.x(), way.y()) > tuning.fence_radius;
     const bool is_high = tuning.fence_height > 0 && -way.z() > tuning.fence_height;
     return (is_far ? breaches_circle : 0u) | (is_high ? breaches_height : 0u);
 }

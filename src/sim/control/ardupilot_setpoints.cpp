@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "flight/physics/math.hpp"
 #include "mavloom/msg/enums/mav_frame.hpp"
 #include "sim/command/positions.hpp"
 #include "sim/control/setpoint_fields.hpp"
@@ -36,7 +37,7 @@ OffboardSetpoint all_of(Message m) noexcept {
 }
 
 Vector3 ahead(double heading, double speed) noexcept {
-    return {speed * std::cos(heading), speed * std::sin(heading), 0};
+    return {speed * flight::math::cos(heading), speed * flight::math::sin(heading), 0};
 }
 
 }  // namespace
@@ -127,7 +128,7 @@ void ArdupilotSetpoints::steer_rover(const Target& target) {
     const bool has_velocity = has(target.mask, no_vx | no_vy), has_yaw = has(target.mask, no_yaw),
                has_rate = has(target.mask, no_yaw_rate), turns = has_yaw || has_rate;
     if (has(target.mask, no_acceleration) || (has_yaw && has_rate) || (!has_velocity && !turns)) return;
-    const double length = has_velocity ? std::hypot(given.velocity.x(), given.velocity.y()) : 0;
+    const double length = has_velocity ? flight::math::hypot(given.velocity.x(), given.velocity.y()) : 0;
     const double heading = has_yaw ? given.yaw : flight_.estimate().euler.yaw;
     OffboardSetpoint setpoint{.yaw = has_yaw ? given.yaw : nan, .yaw_rate = has_rate ? given.yaw_rate : nan};
     setpoint.velocity = turns ? ahead(heading, target.is_backwards ? -length : length) : given.velocity;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "flight/physics/math.hpp"
 #include "mavloom/msg/enums/attitude_target_typemask.hpp"
 #include "mavloom/msg/enums/mav_frame.hpp"
 #include "sim/command/positions.hpp"
@@ -37,7 +38,7 @@ Vector3 local_position_of(const SetPositionTargetGlobalInt& m, const Flight& fli
 }
 
 Vector3 turned(const Vector3& vector, double heading) noexcept {
-    const double c = std::cos(heading), s = std::sin(heading);
+    const double c = flight::math::cos(heading), s = flight::math::sin(heading);
     const bool is_flat = !std::isnan(vector.x()) && !std::isnan(vector.y());
     if (!is_flat) return {nan, nan, vector.z()};
     return {c * vector.x() - s * vector.y(), s * vector.x() + c * vector.y(), vector.z()};

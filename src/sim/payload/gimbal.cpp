@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "flight/physics/math.hpp"
 #include "mavloom/msg/enums/gimbal_manager_flags.hpp"
 #include "mavloom/msg/enums/mav_mount_mode.hpp"
 #include "mavloom/msg/gimbal_manager_set_attitude.hpp"
@@ -164,8 +165,8 @@ void Gimbal::notice_interest() {
 
 void Gimbal::point_at_interest() {
     const Vector3 line = interest_position_ - flight_.estimate().position;
-    motion_.aim({.pitch = -std::atan2(line.z(), std::hypot(line.x(), line.y())),
-                 .yaw = std::atan2(line.y(), line.x()),
+    motion_.aim({.pitch = -flight::math::atan2(line.z(), flight::math::hypot(line.x(), line.y())),
+                 .yaw = flight::math::atan2(line.y(), line.x()),
                  .pitch_rate = nan,
                  .yaw_rate = nan,
                  .locks_yaw = true,

@@ -2,6 +2,7 @@
 // What a gimbal reports. Yaw is from north while it is locked, and from the vehicle's nose while it follows.
 #include <cstring>
 
+#include "flight/physics/math.hpp"
 #include "flight/wire_units.hpp"
 #include "mavloom/msg/enums/gimbal_device_cap_flags.hpp"
 #include "mavloom/msg/enums/gimbal_manager_cap_flags.hpp"
@@ -40,8 +41,8 @@ struct Range {
 // Of the vehicle's nose over the ground, rad/s.
 double heading_rate(const Estimate& estimate) noexcept {
     const Euler& e = estimate.euler;
-    const double level = std::max(std::cos(e.pitch), 0.1);
-    return (estimate.rates.y() * std::sin(e.roll) + estimate.rates.z() * std::cos(e.roll)) / level;
+    const double level = std::max(flight::math::cos(e.pitch), 0.1);
+    return (estimate.rates.y() * flight::math::sin(e.roll) + estimate.rates.z() * flight::math::cos(e.roll)) / level;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "flight/physics/math.hpp"
 #include "mavloom/msg/adsb_vehicle.hpp"
 #include "mavloom/msg/enums/adsb_altitude_type.hpp"
 #include "mavloom/msg/enums/adsb_emitter_type.hpp"
@@ -36,12 +37,12 @@ OnTrack on_track(double straight, double radius, double along) {
     along -= straight;
     if (along < half) {
         const double turned = along / radius;
-        return {straight / 2 + radius * std::sin(turned), -radius * std::cos(turned), turned};
+        return {straight / 2 + radius * flight::math::sin(turned), -radius * flight::math::cos(turned), turned};
     }
     along -= half;
     if (along < straight) return {straight / 2 - along, radius, pi};
     const double turned = (along - straight) / radius;
-    return {-straight / 2 - radius * std::sin(turned), radius * std::cos(turned), pi + turned};
+    return {-straight / 2 - radius * flight::math::sin(turned), radius * flight::math::cos(turned), pi + turned};
 }
 
 }  // namespace
@@ -51,11 +52,11 @@ Aircraft::Motion Aircraft::at(double seconds) const {
     const double travelled = start + speed * seconds;
     const OnTrack place = on_track(straight, radius, travelled - lap * std::floor(travelled / lap));
     const double course = place.course + direction, phase = 2 * pi * seconds / swing_time;
-    const double sine = std::sin(direction), cosine = std::cos(direction);
+    const double sine = flight::math::sin(direction), cosine = flight::math::cos(direction);
     return {.position = center + Vector3{place.north * cosine - place.east * sine,
-                                         place.north * sine + place.east * cosine, -swing * std::sin(phase)},
-            .velocity = {speed * std::cos(course), speed * std::sin(course),
-                         -swing * std::cos(phase) * 2 * pi / swing_time}};
+                                         place.north * sine + place.east * cosine, -swing * flight::math::sin(phase)},
+            .velocity = {speed * flight::math::cos(course), speed * flight::math::sin(course),
+                         -swing * flight::math::cos(phase) * 2 * pi / swing_time}};
 }
 
 // One in three is an airliner on a long track; the others are light aircraft that circle low.
@@ -101,7 +102,7 @@ void Traffic::transmit(const Aircraft& aircraft, std::uint64_t round, FlightTime
     const Home& home = options_.home;
     const GeoPoint place = LocalFrame({home.latitude_deg, home.longitude_deg, home.altitude_m}).to_geo(motion.position);
     const double speed = motion.velocity.head<2>().norm();
-    const double heading = wrap_2pi(std::atan2(motion.velocity.y(), motion.velocity.x()));
+    const double heading = wrap_2pi(flight::math::atan2(motion.velocity.y(), motion.velocity.x()));
     const msg::AdsbVehicle message{
         .ICAO_address = aircraft.icao,
         .lat = to_degrees_e7(place.latitude),

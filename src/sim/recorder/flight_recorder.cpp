@@ -2,12 +2,12 @@
 #include "sim/recorder/flight_recorder.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <iterator>
 #include <span>
 #include <utility>
 
+#include "flight/physics/math.hpp"
 #include "flight/wire_units.hpp"
 #include "mavloom/msg/enums/gps_fix_type.hpp"
 
@@ -29,8 +29,8 @@ void fill_gps(const Flight& flight, Sample& sample) {
     sample.satellites = fix.satellites;
     if (fix.fix_type < msg::GPS_FIX_TYPE_2D_FIX) return;
     sample.gps_position = on_wire(flight.frame().to_geo(fix.position));
-    sample.gps_speed = saturated<std::uint16_t>(std::hypot(fix.velocity.x(), fix.velocity.y()) * 100);
-    sample.gps_course = to_centidegrees(wrap_2pi(std::atan2(fix.velocity.y(), fix.velocity.x())));
+    sample.gps_speed = saturated<std::uint16_t>(flight::math::hypot(fix.velocity.x(), fix.velocity.y()) * 100);
+    sample.gps_course = to_centidegrees(wrap_2pi(flight::math::atan2(fix.velocity.y(), fix.velocity.x())));
 }
 
 void fill_motion(const Flight& flight, Sample& sample) {

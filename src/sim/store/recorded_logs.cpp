@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <string_view>
 #include <vector>
 
+#include "flight/physics/math.hpp"
 #include "sim/recorder/format.hpp"
 #include "sim/store/calendar.hpp"
 
@@ -73,7 +73,7 @@ std::size_t LogImage::read(std::uint32_t offset, ByteSpan out) const noexcept {
 void LogImage::write_record(std::uint32_t index, ByteSpan record) const noexcept {
     const auto time = static_cast<std::uint64_t>(index * (record_interval / std::chrono::microseconds{1}));
     const double yaw = 0.01 * index + 0.1 * number_ + system_.value;
-    format_->write_attitude(time, Quaternion(std::cos(yaw / 2), 0, 0, std::sin(yaw / 2)), record);
+    format_->write_attitude(time, Quaternion(flight::math::cos(yaw / 2), 0, 0, flight::math::sin(yaw / 2)), record);
 }
 
 RecordedLogs::RecordedLogs(const VehicleOptions& options, const Firmware& firmware, const Parameters& parameters,

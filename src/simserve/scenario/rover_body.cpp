@@ -2,10 +2,9 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "mavloom/flight/body.hpp"
 #include "simserve/scenario/body.hpp"
 #include "simserve/scenario/named_numbers.hpp"
 
@@ -28,7 +27,7 @@ constexpr std::array rover_numbers{
 
 tl::unexpected<SetupError> rover_error(std::string text) { return setup_error(SetupCode::usage, std::move(text)); }
 
-// The wheel base and the greatest angle of the front wheels set the turn radius: wheel base / tan(angle).
+// The wheel base and the greatest angle of the front wheels set the turn radius.
 SetupResult<void> set_wheels(RoverBody& body, const std::vector<NamedPart>& parts) {
     const auto wheel_base = find_part(parts, "wheel_base"), steering = find_part(parts, "steering");
     if (!wheel_base && !steering) return {};
@@ -38,7 +37,7 @@ SetupResult<void> set_wheels(RoverBody& body, const std::vector<NamedPart>& part
     if (!length) return tl::unexpected(SetupError(length.error()).within("wheel_base"));
     const auto angle = parse_number(*steering, steering_range);
     if (!angle) return tl::unexpected(SetupError(angle.error()).within("steering"));
-    body.turn_radius_m = *length / std::tan(*angle * (std::numbers::pi / 180));
+    body.turn_radius_m = flight::turn_radius(*length, *angle);
     if (body.turn_radius_m >= radius_range.least && body.turn_radius_m <= radius_range.most) return {};
     return rover_error(fmt::format("its turn radius is {:.2f} m by wheel_base and steering; {} to {} m is possible",
                                    body.turn_radius_m, radius_range.least, radius_range.most));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flight/physics/math.hpp"
 #include "flight/pilot/copter/shaping.hpp"
 
 namespace mavloom::flight {
@@ -25,7 +26,7 @@ Vector3 clamped(const Vector3& value, const Vector3& limit) { return value.cwise
 // The attitude whose thrust has this direction and whose nose points to `yaw`.
 Quaternion attitude_for(const Vector3& force, double yaw) {
     const Vector3 z = -force.normalized();
-    const Vector3 x = Vector3(-std::sin(yaw), std::cos(yaw), 0).cross(z).normalized();
+    const Vector3 x = Vector3(-math::sin(yaw), math::cos(yaw), 0).cross(z).normalized();
     Eigen::Matrix3d axes;
     axes << x, z.cross(x), z;
     return Quaternion(axes);
@@ -50,8 +51,9 @@ Moments Controller::follow(const MotionTarget& target, const Setpoint& setpoint,
 Vector3 Controller::force_for(const Vector3& acceleration, double tilt) const {
     Vector3 force = acceleration - Vector3(0, 0, gravity);
     force.z() = std::clamp(force.z(), -max_thrust * full_thrust_, -min_thrust * gravity);
-    const double max_sideways = std::sqrt(std::pow(max_thrust * full_thrust_, 2) - force.z() * force.z());
-    force.head<2>() = limited(Eigen::Vector2d(force.head<2>()), std::min(-force.z() * std::tan(tilt), max_sideways));
+    const double most = max_thrust * full_thrust_;
+    const double max_sideways = std::sqrt(most * most - force.z() * force.z());
+    force.head<2>() = limited(Eigen::Vector2d(force.head<2>()), std::min(-force.z() * math::tan(tilt), max_sideways));
     return force;
 }
 

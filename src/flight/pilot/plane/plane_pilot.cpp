@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flight/physics/math.hpp"
+
 namespace mavloom::flight::wing {
 
 namespace {
@@ -66,7 +68,7 @@ double bank_limit(const SpeedLimits& limits, const Situation& now) {
     const double needed = now.body.mass_kg * gravity /
                           std::max(now.air.pressure * now.body.area_m2, least_force(now.body));
     const double most = now.body.lift_zero + now.body.lift_slope * safe_angle(now.body);
-    const double by_stall = std::acos(std::clamp(needed / most, 0.3, 1.0));
+    const double by_stall = math::acos(std::clamp(needed / most, 0.3, 1.0));
     return std::min(by_height, by_stall);
 }
 
@@ -74,9 +76,9 @@ double bank_limit(const SpeedLimits& limits, const Situation& now) {
 // the turn needs the share at a right angle to the ground speed.
 double bank_for(double turn_rate, const Situation& now) {
     const Vector3& velocity = now.motion.velocity;
-    const double speed = std::hypot(velocity.x(), velocity.y());
-    const double crab = std::cos(ground_course(now) - now.euler.yaw);
-    return std::atan(turn_rate * speed / (gravity * std::max(crab, 0.4)));
+    const double speed = math::hypot(velocity.x(), velocity.y());
+    const double crab = math::cos(ground_course(now) - now.euler.yaw);
+    return math::atan(turn_rate * speed / (gravity * std::max(crab, 0.4)));
 }
 
 double roll_towards(const Setpoint& setpoint, const SpeedLimits& limits, const Situation& now, double& course) {
@@ -95,8 +97,8 @@ double wanted_airspeed(const Setpoint& setpoint, const SpeedLimits& limits, cons
     if (setpoint.touch_down) return std::min(limits.horizontal, approach_speed(limits));
     if (setpoint.steering != Steering::trajectory || !has_horizontal(setpoint.velocity)) return limits.horizontal;
     // The velocity is that over the ground; the wind is the difference between the two present speeds.
-    const double ground_speed = std::hypot(now.motion.velocity.x(), now.motion.velocity.y());
-    const double wanted = std::hypot(setpoint.velocity.x(), setpoint.velocity.y());
+    const double ground_speed = math::hypot(now.motion.velocity.x(), now.motion.velocity.y());
+    const double wanted = math::hypot(setpoint.velocity.x(), setpoint.velocity.y());
     return std::clamp(wanted + now.air.speed - ground_speed, limits.air_minimum, limits.air_maximum);
 }
 
@@ -129,15 +131,15 @@ double throttle_for(double climb, double airspeed, const Situation& now) {
 
 // The angle of attack that carries the plane at this bank.
 double carrying_attack(double roll, double path, const Situation& now) {
-    const double lift = now.body.mass_kg * gravity * std::cos(path) / std::max(std::cos(roll), 0.3);
+    const double lift = now.body.mass_kg * gravity * math::cos(path) / std::max(math::cos(roll), 0.3);
     const double coefficient = lift / std::max(now.air.pressure * now.body.area_m2, least_force(now.body));
     return std::min((coefficient - now.body.lift_zero) / now.body.lift_slope, safe_angle(now.body));
 }
 
 double pitch_for(double climb, double roll, const Situation& now) {
-    const double sine = std::sin(steepest_path);
-    const double path = std::asin(std::clamp(climb / std::max(now.air.speed, 5.0), -sine, sine));
-    return path + carrying_attack(roll, path, now) * std::cos(roll);
+    const double sine = math::sin(steepest_path);
+    const double path = math::asin(std::clamp(climb / std::max(now.air.speed, 5.0), -sine, sine));
+    return path + carrying_attack(roll, path, now) * math::cos(roll);
 }
 
 // --- Attitude
@@ -146,8 +148,8 @@ double pitch_for(double climb, double roll, const Situation& now) {
 Vector3 rates_for(double roll, double pitch, const Situation& now) {
     constexpr double roll_gain = 4, pitch_gain = 4;  // 1/s
     constexpr double fastest_roll = to_radians(90), fastest_pitch = to_radians(45);
-    const double sin_roll = std::sin(now.euler.roll), cos_roll = std::cos(now.euler.roll);
-    const double sin_pitch = std::sin(now.euler.pitch), cos_pitch = std::max(std::cos(now.euler.pitch), 0.2);
+    const double sin_roll = math::sin(now.euler.roll), cos_roll = math::cos(now.euler.roll);
+    const double sin_pitch = math::sin(now.euler.pitch), cos_pitch = std::max(math::cos(now.euler.pitch), 0.2);
     const double roll_rate = std::clamp(roll_gain * wrap_pi(roll - now.euler.roll), -fastest_roll, fastest_roll);
     const double pitch_rate = std::clamp(pitch_gain * (pitch - now.euler.pitch), -fastest_pitch, fastest_pitch);
     const double lift = now.air.pressure * now.body.area_m2 * lift_coefficient(now.body, now.air.attack);
@@ -211,7 +213,7 @@ bool wants_to_fly(const Setpoint& setpoint, const Situation& now) {
 // The descent along a leg that ends on the ground.
 double glide(const Setpoint& setpoint, const SpeedLimits& limits, const Situation& now) {
     const Vector3 leg = setpoint.position - setpoint.from;
-    const double length = std::hypot(leg.x(), leg.y());
+    const double length = math::hypot(leg.x(), leg.y());
     if (setpoint.steering != Steering::waypoint || !leg.allFinite() || length < 1) return -limits.down;
     const Vector3 flown = now.motion.position - setpoint.from;
     const double slope = leg.z() / std::max(length - float_distance, length / 2);
@@ -282,10 +284,11 @@ Command PlanePilot::command_for(const Setpoint& setpoint, bool armed, const Situ
 void PlanePilot::report(const Command& command, const Situation& now) {
     const double course = std::isnan(command.course) ? now.euler.yaw : command.course;
     const double speed = horizontal_length(now.motion.velocity);
-    targets_ = {.attitude = to_quaternion({command.roll, command.pitch, now.euler.yaw}),
-                .rates = command.rates,
-                .thrust = command.throttle,
-                .velocity = {speed * std::cos(course), speed * std::sin(course), -finite_or(command.climb, 0, -50, 50)}};
+    targets_ = {
+        .attitude = to_quaternion({command.roll, command.pitch, now.euler.yaw}),
+        .rates = command.rates,
+        .thrust = command.throttle,
+        .velocity = {speed * math::cos(course), speed * math::sin(course), -finite_or(command.climb, 0, -50, 50)}};
 }
 
 // The take-off run, or the roll-out after a landing.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Messages that only ArduPilot sends. Source: MAVLink ardupilotmega.xml.
+#include "flight/physics/math.hpp"
 #include "flight/wire_units.hpp"
 #include "mavloom/msg/ahrs.hpp"
 #include "mavloom/msg/ahrs2.hpp"
@@ -74,8 +75,8 @@ bool write_hwstatus(const View& /*view*/, ByteSpan payload) {
 // `direction` is the one that the wind comes from.
 bool write_wind(const View& view, ByteSpan payload) {
     const Vector3& wind = view.flight.wind();
-    const double from = wrap_2pi(std::atan2(-wind.y(), -wind.x()));
-    const double speed = std::hypot(wind.x(), wind.y());
+    const double from = wrap_2pi(flight::math::atan2(-wind.y(), -wind.x()));
+    const double speed = flight::math::hypot(wind.x(), wind.y());
     return put(msg::Wind{.direction = as_float(speed > 0 ? to_degrees(from) : 0),
                          .speed = as_float(speed),
                          .speed_z = as_float(wind.z())},

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "flight/physics/math.hpp"
 #include "flight/wire_units.hpp"
 #include "mavloom/msg/ekf_status_report.hpp"
 #include "mavloom/msg/enums/estimator_sensor_fusion_source.hpp"
@@ -43,7 +44,7 @@ TestRatios test_ratios(const View& view) noexcept {
     };
     const Vector3 apart = fix.position - estimate.position;
     return {ratio((fix.velocity - estimate.velocity).norm(), fix.speed_m_s),
-            ratio(std::hypot(apart.x(), apart.y()), fix.horizontal_m), ratio(apart.z(), fix.vertical_m)};
+            ratio(flight::math::hypot(apart.x(), apart.y()), fix.horizontal_m), ratio(apart.z(), fix.vertical_m)};
 }
 
 constexpr float magnetometer_ratio = 0.07f, terrain_ratio = 0.003f;

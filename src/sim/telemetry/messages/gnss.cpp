@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "flight/physics/math.hpp"
 #include "flight/wire_units.hpp"
 #include "mavloom/msg/enums/gps_fix_type.hpp"
 #include "mavloom/msg/gnss_integrity.hpp"
@@ -16,13 +17,13 @@ std::uint16_t dilution(double value) noexcept { return value > 0 ? saturated<std
 void fill_fix(const View& view, const GpsFix& fix, msg::GpsRawInt& message) {
     constexpr double slowest_course = 0.3;  // m/s; below it the course is noise
     const GeoPoint position = view.flight.frame().to_geo(fix.position);
-    const double speed = std::hypot(fix.velocity.x(), fix.velocity.y());
+    const double speed = flight::math::hypot(fix.velocity.x(), fix.velocity.y());
     message.lat = to_degrees_e7(position.latitude);
     message.lon = to_degrees_e7(position.longitude);
     message.alt = message.alt_ellipsoid = to_mm(position.altitude);
     message.vel = saturated<std::uint16_t>(speed * 100);
     if (speed >= slowest_course)
-        message.cog = to_centidegrees(wrap_2pi(std::atan2(fix.velocity.y(), fix.velocity.x())));
+        message.cog = to_centidegrees(wrap_2pi(flight::math::atan2(fix.velocity.y(), fix.velocity.x())));
     message.h_acc = saturated<std::uint32_t>(fix.horizontal_m * 1e3);
     message.v_acc = saturated<std::uint32_t>(fix.vertical_m * 1e3);
     message.vel_acc = saturated<std::uint32_t>(fix.speed_m_s * 1e3);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "flight/physics/math.hpp"
 #include "flight/wire_units.hpp"
 #include "mavloom/msg/altitude.hpp"
 #include "mavloom/msg/global_position_int.hpp"
@@ -14,7 +15,7 @@ namespace mavloom::sim {
 double airspeed_of(const View& view) noexcept {
     const Vector3& velocity = view.flight.estimate().velocity;
     if (view.options.kind == Kind::plane) return view.flight.plant().air_velocity().norm();
-    return std::hypot(velocity.x(), velocity.y());
+    return flight::math::hypot(velocity.x(), velocity.y());
 }
 
 double height_of(const View& view) {
@@ -68,22 +69,23 @@ bool write_home_position(const View& view, ByteSpan payload) {
     if (!home) return false;
     const Vector3 local = view.flight.frame().to_local(*home);
     const double half_yaw = wrap_pi(view.flight.home_yaw()) / 2;
-    return put(msg::HomePosition{.latitude = to_degrees_e7(home->latitude),
-                                 .longitude = to_degrees_e7(home->longitude),
-                                 .altitude = to_mm(home->altitude),
-                                 .x = as_float(local.x()),
-                                 .y = as_float(local.y()),
-                                 .z = as_float(local.z()),
-                                 .q = {as_float(std::cos(half_yaw)), 0, 0, as_float(std::sin(half_yaw))},
-                                 .time_usec = boot_us(view)},
-               payload);
+    return put(
+        msg::HomePosition{.latitude = to_degrees_e7(home->latitude),
+                          .longitude = to_degrees_e7(home->longitude),
+                          .altitude = to_mm(home->altitude),
+                          .x = as_float(local.x()),
+                          .y = as_float(local.y()),
+                          .z = as_float(local.z()),
+                          .q = {as_float(flight::math::cos(half_yaw)), 0, 0, as_float(flight::math::sin(half_yaw))},
+                          .time_usec = boot_us(view)},
+        payload);
 }
 
 bool write_vfr_hud(const View& view, ByteSpan payload) {
     const Flight& flight = view.flight;
     const Vector3& velocity = flight.estimate().velocity;
     return put(msg::VfrHud{.airspeed = as_float(airspeed_of(view)),
-                           .groundspeed = as_float(std::hypot(velocity.x(), velocity.y())),
+                           .groundspeed = as_float(flight::math::hypot(velocity.x(), velocity.y())),
                            .heading = static_cast<std::int16_t>(to_whole_degrees(flight.estimate().heading)),
                            .throttle = saturated<std::uint16_t>(flight.armed() ? 100 * flight.plant().thrust() : 0),
                            .alt = as_float(flight.position().altitude),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Source: MAVLink guide, "Open Drone ID". Values that a field leaves open are those of PX4 1.17.
+#include "flight/physics/math.hpp"
 #include "flight/wire_units.hpp"
 #include "mavloom/msg/enums/mav_odid_hor_acc.hpp"
 #include "mavloom/msg/enums/mav_odid_speed_acc.hpp"
@@ -25,9 +26,9 @@ float seconds_of_hour(const View& view) noexcept {
 void fill_fix_motion(const View& view, OpenDroneIdLocation& message) {
     const GpsFix& fix = view.flight.sensors().gps();
     const GeoPoint position = view.flight.frame().to_geo(fix.position);
-    const double course = wrap_2pi(std::atan2(fix.velocity.y(), fix.velocity.x()));
+    const double course = wrap_2pi(flight::math::atan2(fix.velocity.y(), fix.velocity.x()));
     message.direction = static_cast<std::uint16_t>(100 * to_whole_degrees(course));
-    message.speed_horizontal = saturated<std::uint16_t>(100 * std::hypot(fix.velocity.x(), fix.velocity.y()));
+    message.speed_horizontal = saturated<std::uint16_t>(100 * flight::math::hypot(fix.velocity.x(), fix.velocity.y()));
     message.speed_vertical = to_cm_s(-fix.velocity.z());
     message.latitude = to_degrees_e7(position.latitude);
     message.longitude = to_degrees_e7(position.longitude);

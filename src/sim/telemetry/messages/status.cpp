@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <bit>
 
+#include "flight/physics/math.hpp"
 #include "flight/wire_units.hpp"
 #include "mavloom/msg/available_modes_monitor.hpp"
 #include "mavloom/msg/current_mode.hpp"
@@ -97,8 +98,8 @@ void fill_target(const View& view, HighLatency2& message) {
     const auto& target = view.flight.target();
     if (!target) return;
     const Vector3 way = target->position - view.flight.estimate().position;
-    message.target_heading = to_half_degrees(std::atan2(way.y(), way.x()));
-    message.target_distance = saturated<std::uint16_t>(std::hypot(way.x(), way.y()) / 10);
+    message.target_heading = to_half_degrees(flight::math::atan2(way.y(), way.x()));
+    message.target_distance = saturated<std::uint16_t>(flight::math::hypot(way.x(), way.y()) / 10);
     message.target_altitude = saturated<std::int16_t>(view.flight.frame().origin().altitude - target->position.z());
 }
 
@@ -198,9 +199,9 @@ bool write_high_latency2(const View& view, ByteSpan payload) {
                          .heading = to_half_degrees(flight.estimate().heading),
                          .throttle = saturated<std::uint8_t>(flight.armed() ? 100 * flight.plant().thrust() : 0),
                          .airspeed = to_fifths(airspeed_of(view)),
-                         .groundspeed = to_fifths(std::hypot(velocity.x(), velocity.y())),
-                         .windspeed = to_fifths(std::hypot(flight.wind().x(), flight.wind().y())),
-                         .wind_heading = to_half_degrees(std::atan2(flight.wind().y(), flight.wind().x())),
+                         .groundspeed = to_fifths(flight::math::hypot(velocity.x(), velocity.y())),
+                         .windspeed = to_fifths(flight::math::hypot(flight.wind().x(), flight.wind().y())),
+                         .wind_heading = to_half_degrees(flight::math::atan2(flight.wind().y(), flight.wind().x())),
                          .temperature_air = saturated<std::int8_t>(flight.sensors().imu().temperature_c),
                          .climb_rate = saturated<std::int8_t>(-10 * velocity.z()),
                          .battery = battery_on_wire(flight.battery()).percent,

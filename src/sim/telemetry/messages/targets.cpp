@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "flight/physics/math.hpp"
 #include "flight/wire_units.hpp"
 #include "mavloom/msg/attitude_target.hpp"
 #include "mavloom/msg/enums/mav_frame.hpp"
@@ -87,7 +88,7 @@ double seconds_to_return(const View& view) {
     const double altitude = relative_altitude_of(view);
     const double top = std::max(altitude, tuning.return_altitude);
     const double slow = std::min(tuning.land_slow_height, top);
-    return over(top - altitude, tuning.climb_speed) + over(std::hypot(way.x(), way.y()), tuning.cruise_speed) +
+    return over(top - altitude, tuning.climb_speed) + over(flight::math::hypot(way.x(), way.y()), tuning.cruise_speed) +
            over(top - slow, tuning.descent_speed) + over(slow, tuning.land_speed);
 }
 
@@ -103,7 +104,7 @@ bool write_attitude_target(const View& view, ByteSpan payload) {
     const Flight& flight = view.flight;
     const InnerTargets inner = flight.inner_targets();
     const double half_yaw = flight.estimate().euler.yaw / 2;
-    const Quaternion level(std::cos(half_yaw), 0, 0, std::sin(half_yaw));
+    const Quaternion level(flight::math::cos(half_yaw), 0, 0, flight::math::sin(half_yaw));
     const Vector3 rates = flight.armed() ? inner.rates : Vector3::Zero();
     return put(AttitudeTarget{.time_boot_ms = boot_ms(view),
                               .q = quaternion_on_wire(flight.armed() ? inner.attitude : level),
@@ -148,14 +149,14 @@ bool write_nav_controller_output(const View& view, ByteSpan payload) {
     const InnerTargets inner = view.flight.inner_targets();
     const Euler attitude = to_euler(inner.attitude);
     const Vector3 way = target->position - view.flight.estimate().position;
-    const double bearing = std::atan2(way.y(), way.x());
-    const bool moves = std::hypot(inner.velocity.x(), inner.velocity.y()) > 0.3;
+    const double bearing = flight::math::atan2(way.y(), way.x());
+    const bool moves = flight::math::hypot(inner.velocity.x(), inner.velocity.y()) > 0.3;
     return put(NavControllerOutput{.nav_roll = as_float(to_degrees(attitude.roll)),
                                    .nav_pitch = as_float(to_degrees(attitude.pitch)),
                                    .nav_bearing = to_signed_degrees(
-                                       moves ? std::atan2(inner.velocity.y(), inner.velocity.x()) : bearing),
+                                       moves ? flight::math::atan2(inner.velocity.y(), inner.velocity.x()) : bearing),
                                    .target_bearing = to_signed_degrees(bearing),
-                                   .wp_dist = saturated<std::uint16_t>(std::hypot(way.x(), way.y())),
+                                   .wp_dist = saturated<std::uint16_t>(flight::math::hypot(way.x(), way.y())),
                                    .alt_error = as_float(-way.z()),
                                    .xtrack_error = as_float(target->cross_track)},
                payload);
