@@ -13,12 +13,15 @@
 #include <cstdio>
 #include <optional>
 #include <span>
+#include <sstream>
 
 #include "command.hpp"
+#include "ctl/text_table.hpp"
 #include "mavloom/base/shown.hpp"
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/base/version.hpp"
 #include "mavloom/endpoint/endpoint.hpp"
+#include "output.hpp"
 #include "progress.hpp"
 #include "signals.hpp"
 #ifndef MAVLOOM_MINIMAL
@@ -65,7 +68,9 @@ constexpr std::string_view rest_of_footer =
     "signal.";
 
 std::string footer() {
-    std::string text = "Endpoints (docs/guide/endpoints.md):\n";
+    std::string text =
+        "`mavloom help COMMAND` prints the options and examples of a command.\n\nEndpoints "
+        "(docs/guide/endpoints.md):\n";
     for (const auto& row : endpoint::scheme_rows) text += fmt::format("  {:<28}{}\n", endpoint::form_of(row), row.help);
     return text.append(rest_of_footer);
 }
@@ -80,6 +85,25 @@ void add_common(CLI::App& sub, Common& common, const Command& command) {
         ->type_name("FILE")
         ->allow_extra_args(false);
 }
+
+// CLI11 prints a description as one line, however long it is.
+class HelpFormatter : public CLI::Formatter {
+    [[nodiscard]] std::string make_option_desc(const CLI::Option* option) const override {
+        return in_column(option->get_description());
+    }
+    [[nodiscard]] std::string make_subcommand(const CLI::App* command) const override {
+        std::ostringstream text;
+        CLI::detail::format_help(text, command->get_name(), in_column(command->get_description()), get_column_width());
+        return text.str();
+    }
+    [[nodiscard]] std::string in_column(const std::string& description) const {
+        constexpr int usual = 100, narrowest = 60, widest = 120;
+        const int width = std::clamp(width_of_output(usual), narrowest, widest);
+        auto text = wrapped(description, width - static_cast<int>(get_column_width()), 0);
+        text.pop_back();
+        return text;
+    }
+};
 
 // Prints two lines to stderr: what is wrong, and where to find the help.
 Exit wrong_use(std::string_view what, std::string_view command) {
@@ -165,12 +189,14 @@ std::optional<std::string> option_before_command(std::span<const std::string> ar
                        *command, shown(first));
 }
 
+constexpr std::string_view help_command = "help";
+
 // "mavloom help" and "mavloom help COMMAND" are "mavloom --help" and "mavloom COMMAND --help".
 std::vector<std::string> words_of(int argc, char** argv) {
     std::vector<std::string> words(argv, argv + argc);
-    if (words.size() < 2 || words[1] != "help") return words;
-    words.erase(words.begin() + 1);
-    words.emplace_back("--help");
+    const bool wants_help = words.size() > 1 && words[1] == help_command;
+    while (words.size() > 1 && words[1] == help_command) words.erase(words.begin() + 1);
+    if (wants_help) words.emplace_back("--help");
     return words;
 }
 
@@ -209,6 +235,7 @@ Exit run(std::span<const std::string> words) {
 
     Common common;
     CLI::App app{"Moves, shows, re-encodes and records MAVLink telemetry, and simulates vehicles.", "mavloom"};
+    app.formatter(std::make_shared<HelpFormatter>());
     app.footer(footer());
     app.require_subcommand(1);
     app.add_flag("--version")->description("print the version");

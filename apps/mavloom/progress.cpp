@@ -7,6 +7,8 @@
 
 #include <atomic>
 
+#include "mavloom/base/durations.hpp"
+
 namespace mavloom::app {
 
 namespace {
@@ -53,6 +55,11 @@ void Progress::clear() { write_stderr(erase_progress()); }
 void Progress::restart() {
     meter_ = ProgressMeter(mono_now());
     next_ = mono_now() + quick;
+}
+
+std::optional<double> part_of_time(MonoTime begin, MonoTime end) {
+    if (end == MonoTime::max()) return std::nullopt;
+    return seconds(mono_now() - begin) / seconds(end - begin);
 }
 
 // Without escape sequences, which not every terminal has.

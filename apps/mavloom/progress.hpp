@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -33,6 +34,9 @@ private:
     MonoTime next_;
     ProgressMeter meter_;
 };
+
+// How much of a time has passed, 0 to 1. Empty: the time has no end.
+[[nodiscard]] std::optional<double> part_of_time(MonoTime begin, MonoTime end);
 
 // Returns the characters that erase the progress line, if there is one, and notes that it is gone. A line of the log
 // thus takes its place. Any thread.

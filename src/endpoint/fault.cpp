@@ -236,6 +236,8 @@ std::span<const std::string_view> fault_names() noexcept { return names_of_fault
 
 SetupResult<Faults> parse_faults(std::string_view text) {
     if (text == "off") return Faults{};
+    if (text.empty())
+        return usage("no fault is given; write some, such as loss:0.05,delay:80ms, a preset such as sik, or off");
     Faults faults;
     TermReader reader(faults);
     auto done = dialect::for_each_term(text, [&](std::string_view term) { return reader.read(term); });

@@ -14,6 +14,7 @@
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/simserve/report.hpp"
 #include "simserve/request_values.hpp"
+#include "simserve/scenario/values.hpp"
 #include "simserve/scenario/vehicle_fault.hpp"
 
 namespace mavloom::simserve {
@@ -65,10 +66,10 @@ Report disarm(Simulator& simulator, const Json& request) {
 }
 
 Report take_off(Simulator& simulator, const Json& request) {
-    constexpr double lowest_m = 0.5, highest_m = 10'000;
     const auto altitude = number_at(request, "altitude").value_or(std::nullopt);
-    if (!altitude || !(*altitude >= lowest_m && *altitude <= highest_m))
-        return failed(fmt::format("takeoff needs an altitude above home, {} to {} m", lowest_m, highest_m));
+    if (!altitude || !takeoff_range.has(*altitude))
+        return failed(
+            fmt::format("takeoff needs an altitude above home, {} to {} m", takeoff_range.least, takeoff_range.most));
     return state_of(
         order(simulator, request, [height = *altitude](sim::Vehicle& vehicle) { return vehicle.take_off(height); }));
 }
@@ -76,7 +77,7 @@ Report take_off(Simulator& simulator, const Json& request) {
 Report go_to(Simulator& simulator, const Json& request) {
     const auto at = [&](const char* key) { return number_at(request, key).value_or(std::nullopt); };
     const auto latitude = at("latitude"), longitude = at("longitude");
-    if (!latitude || !longitude || std::abs(*latitude) > 90 || std::abs(*longitude) > 180)
+    if (!latitude || !longitude || !latitude_range.has(*latitude) || !longitude_range.has(*longitude))
         return failed("goto needs a latitude, -90 to 90 degrees, and a longitude, -180 to 180 degrees");
     return state_of(order(simulator, request, [=, altitude = at("altitude")](sim::Vehicle& vehicle) {
         return vehicle.go_to(*latitude, *longitude, altitude);

@@ -184,9 +184,9 @@ Run declare_listen(Arguments command, const Common& common) {
     command.footer(
         "Examples:\n  mavloom listen udpin://0.0.0.0:14550\n  mavloom listen udpin://0.0.0.0:14550 --only "
         "ATTITUDE,VFR_HUD --json\n"
-        "  mavloom listen flight.tlog --stats-only\n  mavloom listen shm://px4 --for 10s\n\nExit status: 0 even if "
-        "frames were lost, 130 after Ctrl-C, 1 if messages could not be printed because the output stalled at the "
-        "end.");
+        "  mavloom listen flight.tlog --stats-only\n  mavloom listen shm://px4 --for 10s\n\n"
+        "Exit status: 0 even if frames were lost, 130 after Ctrl-C, 1 if messages could not be printed because the\n"
+        "output stalled at the end.");
     return [options, &common] { return listen(common, *options); };
 }
 

@@ -109,8 +109,7 @@ private:
     [[nodiscard]] std::optional<double> part_done() {
         if (options_.receive.count != 0)
             return static_cast<double>(writer_.taken_records()) / static_cast<double>(options_.receive.count);
-        if (end_ != MonoTime::max())
-            return std::chrono::duration<double>(mono_now() - begin_) / std::chrono::duration<double>(end_ - begin_);
+        if (const auto part = part_of_time(begin_, end_)) return part;
         if (total_bytes_ == 0) return std::nullopt;
         return static_cast<double>(bytes_read(receiver_)) / static_cast<double>(total_bytes_);
     }

@@ -57,11 +57,11 @@ private:
     std::optional<link::SigningTimes>& times_;
 };
 
-// Logs the events of the relay, and shows how far it is in recordings. A signal ends it.
+// Logs the events of the relay, and shows how far it is. A signal ends it.
 class Events final : public feed::RelayHandler {
 public:
-    Events(const Common& common, KeptTimes& times, const feed::Sources& sources, const edit::Stage& stage)
-        : common_(common), times_(times), sources_(sources), stage_(stage), progress_(common) {}
+    Events(const Common& common, KeptTimes& times, feed::Sources& sources, const edit::Stage& stage, MonoTime end)
+        : common_(common), times_(times), sources_(sources), stage_(stage), end_(end), progress_(common) {}
 
     void clear() { progress_.clear(); }
 
@@ -82,16 +82,18 @@ private:
     void on_notice(std::string_view text) override { print_event(common_, text); }
 
     void show_progress() {
-        if (!sources_.are_recordings() || !progress_.is_due()) return;
-        std::uint64_t bytes = 0;
-        for (const auto& recording : sources_.recordings()) bytes += recording->reader.position();
-        progress_.show({.frames = stage_.counters().frames.value(), .bytes = bytes, .part = part_read(sources_)});
+        if (!progress_.is_due()) return;
+        feed::Totals totals;
+        sources_.add_to(totals);
+        const auto part = sources_.are_recordings() ? part_read(sources_) : part_of_time(begin_, end_);
+        progress_.show({.frames = stage_.counters().frames.value(), .bytes = totals.bytes, .part = part});
     }
 
     const Common& common_;
     KeptTimes& times_;
-    const feed::Sources& sources_;
+    feed::Sources& sources_;
     const edit::Stage& stage_;
+    const MonoTime begin_ = mono_now(), end_;
     Progress progress_;
 };
 
@@ -222,7 +224,7 @@ Exit relay(const Common& common, RelayOptions& options) {
     const auto end = options.duration.empty() ? MonoTime::max()
                                               : mono_now() + *endpoint::parse_duration(options.duration);
     KeptTimes kept(common, **stage, *times);
-    Events events(common, kept, *sources, **stage);
+    Events events(common, kept, *sources, **stage, end);
     using Signing = feed::Relay::Signing;
     feed::Relay relaying(*sources, *destinations, **stage, events, options.edit.sign_key ? Signing::on : Signing::off);
     const auto outcome = relaying.run(end);
@@ -273,7 +275,7 @@ Run declare_relay(Arguments command, const Common& common) {
     command.add_option("--for", "TIME", options->duration, "end after this time: 10s, 2m");
     declare_fault_log(command, options->fault_log);
     command.footer(
-        "Without options, the output is byte for byte the input. Answers from the far side go back to the "
+        "Without options, the output is byte for byte the input. Answers from the far side go back to the\n"
         "sources. A ring is read losslessly unless ?lossless=false.\n\nExamples:\n"
         "  mavloom relay udpin://0.0.0.0:14540 --to udpout://192.168.1.20:14550\n"
         "  mavloom relay shm://px4 --to udpout://127.0.0.1:14550\n"

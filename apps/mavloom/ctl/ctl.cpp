@@ -253,14 +253,7 @@ Run declare_ctl(Arguments command, const Common&) {
     command.add_option(
         "name", "NAME", options->name,
         "the --name of a router or simulator; by default router, or sim. Without it, lists those that run");
-    command.add_option("action", "ACTION", options->action,
-                       "links, stats, add URL, remove NAME, fault NAME FAULTS (or off); of a router: routes; of a "
-                       "simulator: streams, state, arm, disarm, takeoff ALTITUDE, land, rtl, goto LATITUDE LONGITUDE "
-                       "[ALTITUDE], mode NAME, param NAME "
-                       "[VALUE], fail PART FAULT, wait STATE (ready, armed, disarmed, landed, alt METRES), pause, "
-                       "resume, step TIME; with "
-                       "sim --hil: state, pause, resume, step TIME, reset, push N,E,D, turn ROLL,PITCH,YAW, wind "
-                       "SPEED,DIR[,GUST], mass KG, fail PART FAULT");
+    command.add_option("action", "ACTION", options->action, "what to ask or command: one of the list below");
     command.add_option("argument", "ARGUMENT", options->arguments, "what the action takes");
     command.add_option("--system", "N", options->system, "the vehicle with this system id (default: all)");
     command.add_option("--for", "TIME", options->limit, "`wait` ends after this time, with status 1")
@@ -272,7 +265,19 @@ Run declare_ctl(Arguments command, const Common&) {
     command.add_flag("--json", options->json, "print JSON on a terminal, too");
     command.footer(
         "Prints tables on a terminal. Elsewhere answers are JSON, one object per line (docs/guide/route.md,\n"
-        "docs/guide/sim.md). If a vehicle refuses, the exit status is 1, with the vehicle's own text.\n\nExamples:\n"
+        "docs/guide/sim.md). If a vehicle refuses, the exit status is 1, with the vehicle's own text.\n\n"
+        "Actions:\n"
+        "  links, stats, add URL, remove NAME, fault NAME FAULTS|off\n"
+        "Of a router:\n"
+        "  routes\n"
+        "Of a simulator:\n"
+        "  streams, state, arm, disarm, takeoff ALTITUDE, land, rtl, goto LATITUDE LONGITUDE [ALTITUDE], mode NAME,\n"
+        "  param NAME [VALUE], fail PART FAULT, wait ready|armed|disarmed|landed, wait alt METRES, pause, resume,\n"
+        "  step TIME\n"
+        "Of a simulator with --hil:\n"
+        "  state, pause, resume, step TIME, reset, push NORTH,EAST,DOWN, turn ROLL,PITCH,YAW, wind SPEED,DIR[,GUST],\n"
+        "  mass KG, fail PART FAULT\n\n"
+        "Examples:\n"
         "  mavloom ctl router links\n"
         "  mavloom ctl router add 'udpout://192.168.1.20:14550?name=tablet'\n"
         "  mavloom ctl router remove tablet\n"

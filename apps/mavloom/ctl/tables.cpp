@@ -21,6 +21,7 @@ enum class Form : std::uint8_t {
     count,
     bytes,
     whole,
+    heading,
     tenths,
     hundredths,
     degrees,
@@ -56,7 +57,7 @@ const std::vector<Layout>& layouts() {
           {"READY", "ready", Form::yes, 2},
           {"STATE", "landed_state", Form::text, 4},
           {"HEIGHT, M", "relative_alt_m", Form::tenths, 1},
-          {"HEADING", "heading_deg", Form::whole, 6},
+          {"HEADING", "heading_deg", Form::heading, 6},
           {"BATTERY, %", "battery_percent", Form::whole, 2},
           {"LATITUDE", "lat", Form::degrees, 7},
           {"LONGITUDE", "lon", Form::degrees, 7}}},
@@ -143,6 +144,9 @@ std::string tenths(double value) {
     return text == "-0.0" ? "0.0" : text;
 }
 
+// 359.6 is 0 when it is rounded.
+std::string heading_text(double degrees) { return fmt::format("{:.0f}", std::fmod(std::round(degrees), 360)); }
+
 std::string lost_text(const Json& object) {
     const auto frames = object.value("frames", 0.0), lost = object.value("lost", 0.0);
     return lost == 0 ? "0" : fmt::format("{:.0f} ({:.1f} %)", lost, 100 * lost / (frames + lost));
@@ -167,6 +171,7 @@ std::string cell_of(const Json& object, const Shown& shown) {
         case Form::count: return fmt::format("{}", found->get<std::uint64_t>());
         case Form::bytes: return bytes_text_of(found->get<double>());
         case Form::whole: return fmt::format("{:.0f}", found->get<double>());
+        case Form::heading: return heading_text(found->get<double>());
         case Form::tenths: return tenths(found->get<double>());
         case Form::hundredths: return fmt::format("{:.2f}", found->get<double>());
         case Form::degrees: return fmt::format("{:.7f}", found->get<double>());

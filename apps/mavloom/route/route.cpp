@@ -215,8 +215,8 @@ Run declare_route(Arguments command, const Common& common) {
     command.add_option("--for", "TIME", options->duration, "end after this time: 10s, 2m");
     declare_fault_log(command, options->fault_log);
     command.footer(
-        "Forwards every frame byte for byte: broadcasts to all other links, targeted frames to the links where their "
-        "target was heard.\nEach peer of udpin:// and each client of tcpin:// is its own link. tlog://PATH records "
+        "Forwards every frame byte for byte: broadcasts to all other links, targeted frames to the links where their\n"
+        "target was heard. Each peer of udpin:// and each client of tcpin:// is its own link. tlog://PATH records\n"
         "every frame that arrives.\n\nExamples:\n"
         "  mavloom route --config examples/px4-qgc.toml\n"
         "  mavloom route udpin://0.0.0.0:14540 udpout://192.168.1.20:14550\n"

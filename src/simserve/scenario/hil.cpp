@@ -143,9 +143,9 @@ private:
 
 SetupResult<void> read_home(const Px4Variables& variables, ScenarioVehicle& vehicle) {
     sim::Home home = vehicle.options.home;
-    const auto latitude = variables.read("PX4_HOME_LAT", {-90, 90}, home.latitude_deg);
+    const auto latitude = variables.read("PX4_HOME_LAT", latitude_range, home.latitude_deg);
     if (!latitude) return tl::unexpected(latitude.error());
-    const auto longitude = variables.read("PX4_HOME_LON", {-180, 180}, home.longitude_deg);
+    const auto longitude = variables.read("PX4_HOME_LON", longitude_range, home.longitude_deg);
     if (!longitude) return tl::unexpected(longitude.error());
     const auto altitude = variables.read("PX4_HOME_ALT", {-500, 20'000}, home.altitude_m);
     if (!altitude) return tl::unexpected(altitude.error());

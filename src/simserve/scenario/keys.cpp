@@ -67,8 +67,11 @@ SetupResult<void> set_duration(Scenario& scenario, Text text) {
 }
 
 SetupResult<void> set_speed(Scenario& scenario, Text text) {
-    if (text != "max") return put(parse_number(text, {0.1, 100}), scenario.speed);
-    scenario.speed = max_speed;
+    constexpr Range speeds{0.1, 100};
+    if (text == "max") scenario.speed = max_speed;
+    else if (!put(parse_number(text, speeds), scenario.speed))
+        return endpoint::usage(
+            fmt::format("{} is neither a number from {} to {} nor max", in_quotes(text), speeds.least, speeds.most));
     return {};
 }
 

@@ -21,6 +21,7 @@ namespace {
 struct Argument {
     const char* key = nullptr;  // in the request; null: there is none
     enum class Kind : std::uint8_t { number, optional_number, text } kind = Kind::number;
+    Range range{-std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
 };
 
 // An order of the time line: its words, and the request that it stands for.
@@ -43,9 +44,11 @@ using Kind = Argument::Kind;
 constexpr std::array order_forms{
     OrderForm{"arm", {}, "arm"},
     OrderForm{"disarm", {}, "disarm"},
-    OrderForm{"takeoff", {{{"altitude"}}}, "takeoff ALTITUDE"},
+    OrderForm{"takeoff", {{{"altitude", Kind::number, takeoff_range}}}, "takeoff ALTITUDE"},
     OrderForm{"goto",
-              {{{"latitude"}, {"longitude"}, {"altitude", Kind::optional_number}}},
+              {{{"latitude", Kind::number, latitude_range},
+                {"longitude", Kind::number, longitude_range},
+                {"altitude", Kind::optional_number}}},
               "goto LATITUDE LONGITUDE [ALTITUDE]"},
     OrderForm{"mode", {{{"mode", Kind::text}}}, "mode NAME"},
     OrderForm{"param", {{{"name", Kind::text}, {"value"}}}, "param NAME VALUE"},
@@ -98,8 +101,7 @@ SetupResult<std::string> request_of_order(std::string_view text, std::optional<S
             request[argument.key] = words[i];
             continue;
         }
-        constexpr double most = std::numeric_limits<double>::max();
-        const auto number = parse_number(words[i], {-most, most});
+        const auto number = parse_number(words[i], argument.range);
         if (!number) return tl::unexpected(SetupError(number.error()).within(argument.key));
         request[argument.key] = *number;
     }

@@ -21,8 +21,7 @@ namespace {
 
 using endpoint::usage;
 
-constexpr Range latitude_range{-90, 90}, longitude_range{-180, 180}, altitude_range{-500, 20'000},
-    heading_range{0, 360}, speed_range{0, 60};
+constexpr Range altitude_range{-500, 20'000}, heading_range{0, 360}, speed_range{0, 60};
 
 SetupResult<std::vector<double>> parse_list(std::string_view text, std::span<const Range> ranges,
                                             std::span<const std::string_view> names) {
@@ -46,7 +45,7 @@ constexpr std::array battery_ranges{Range{100, 1'000'000}, Range{1, 14}, Range{0
 SetupResult<double> parse_number(std::string_view text, Range range) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size() || !(value >= range.least && value <= range.most))
+    if (error != std::errc{} || end != text.data() + text.size() || !range.has(value))
         return usage(fmt::format("{} is not a number from {} to {}", in_quotes(text), range.least, range.most));
     return value;
 }

@@ -15,7 +15,10 @@ namespace mavloom::simserve {
 
 struct Range {
     double least, most;
+    [[nodiscard]] constexpr bool has(double value) const noexcept { return value >= least && value <= most; }
 };
+// In degrees, and in metres above home.
+inline constexpr Range latitude_range{-90, 90}, longitude_range{-180, 180}, takeoff_range{0.5, 10'000};
 // A finite number within the range.
 [[nodiscard]] SetupResult<double> parse_number(std::string_view text, Range range);
 // "2026-11-29T12:00:00Z".

@@ -93,6 +93,15 @@ def test_wrong_words_get_the_words_to_type(run, arguments, said):
     assert done.status == 2 and said in done.stderr, done
 
 
+def test_help_fits_into_a_terminal(run):
+    whole = run("--help").stdout
+    assert "mavloom help COMMAND" in whole
+    for command in re.findall(r"^  ([a-z]+) {2}", whole.split("Subcommands:")[1], re.MULTILINE):
+        lines = run("help", command, env={"COLUMNS": "90"}).stdout.splitlines()
+        described = [line for line in lines if line.startswith(" " * 30)]
+        assert max(map(len, described), default=0) <= 90 and max(map(len, lines)) <= 120, (command, lines)
+
+
 def test_help_is_a_command_too(run):
     assert run("help").stdout == run("--help").stdout != ""
     assert run("help", "relay").stdout == run("relay", "--help").stdout != ""

@@ -605,12 +605,15 @@ def run_quiet(program, command, *more):
     return on_terminal(program, command, f"{frames.FLIGHT}?speed=1", "-q", *more, seconds=0.8)
 
 
-@pytest.mark.parametrize("limit, shown", [((), None), (("--for", "9s"), r"\[#*\.*\] +\d+ %.*0[0-9]:\d\d left"),
-                                          (("--count", "900"), r"\[#*\.*\] +\d+ %")])
-def test_a_live_recording_knows_its_end_by_its_limit(program, spawn, udp_port, tmp_path, limit, shown):
+@pytest.mark.parametrize("command, limit, shown", [
+    ("record", (), None), ("record", ("--for", "9s"), r"\[#*\.*\] +\d+ %.*0[0-9]:\d\d left"),
+    ("record", ("--count", "900"), r"\[#*\.*\] +\d+ %"), ("relay", (), None),
+    ("relay", ("--for", "9s"), r"\[#*\.*\] +\d+ %.*0[0-9]:\d\d left")])
+def test_a_live_command_knows_its_end_by_its_limit(program, spawn, udp_port, tmp_path, command, limit, shown):
     port = udp_port()
+    to = "-o" if command == "record" else "--to"
     spawn("sim", "--to", f"udpout://127.0.0.1:{port}", "--name", f"progress-{port}")
-    seen = on_terminal(program, "record", f"udpin://127.0.0.1:{port}", "-o", tmp_path / "live.tlog", *limit, seconds=3)
+    seen = on_terminal(program, command, f"udpin://127.0.0.1:{port}", to, tmp_path / "live.tlog", *limit, seconds=3)
     assert re.search(r"\d+ frames  [\d.]+ k?B  00:0\d  \d+ frames/s", seen), seen
     assert bool(re.search(r"\d %", seen)) == bool(shown) and (shown is None or re.search(shown, seen)), seen
 

@@ -152,6 +152,18 @@ do = "land"
     EXPECT_EQ(sut.orders[1].request, R"({"cmd":"mode","mode":"Land"})");
 }
 
+TEST(Scenario, OrdersThatNoVehicleCanFollowAreErrors) {
+    const auto error = [](const std::string& order) {
+        const auto text = fmt::format("[[event]]\nat = \"1s\"\ndo = \"{}\"\n", order);
+        const auto scenario = read_scenario(*config::parse_document(text, "x"), {}, {});
+        return scenario ? std::string() : scenario.error().text;
+    };
+    EXPECT_THAT(error("goto 99 8 10"), HasSubstr("latitude: '99' is not a number from -90 to 90"));
+    EXPECT_THAT(error("goto 47 181"), HasSubstr("longitude: '181' is not a number from -180 to 180"));
+    EXPECT_THAT(error("takeoff 0.4"), HasSubstr("altitude: '0.4' is not a number from 0.5 to 10000"));
+    EXPECT_EQ(error("goto -90 180"), "");
+}
+
 TEST(ScenarioValues, TimesAreInUtc) {
     EXPECT_EQ(parse_utc("2026-11-29T12:00:00Z").value(), WallTime{std::chrono::seconds{1'795'953'600}});
     for (const auto* const text :
