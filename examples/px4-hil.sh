@@ -11,7 +11,7 @@
 # PX4_FOLDER is PX4's source folder with a finished px4_sitl_default, or that build's own folder. These variables change
 # what the script starts (docs/guide/hil.md):
 #
-#   PX4_INSTANCE=1           second vehicle: ports 4561, 18571, 5058, 14551 and 5761, system id 2
+#   PX4_INSTANCE=1           second vehicle: ports 4561, 18571, 5058, 14551 and 5761, system id 2; its simulator is sim1
 #   PX4_SIM_MODEL=none_iris  PX4's airframe
 #   PX4_SIM_SPEED_FACTOR=5   speed of the flight, for PX4's time-outs too
 #   PX4_WORK=FOLDER          keeps PX4's parameters and logs there; without it, they are removed at the end
@@ -34,7 +34,7 @@ if [ "$(id -u)" = 0 ]; then
   echo "PX4 takes real-time priority when root runs it. An ordinary user is safer." >&2
 fi
 
-number=${PX4_INSTANCE:-0} gcs=${GCS:-127.0.0.1:$((14550 + ${PX4_INSTANCE:-0}))}
+number=${PX4_INSTANCE:-0} name=sim${PX4_INSTANCE:-} gcs=${GCS:-127.0.0.1:$((14550 + ${PX4_INSTANCE:-0}))}
 export PX4_SIM_MODEL=${PX4_SIM_MODEL:-none_iris}
 work=${PX4_WORK:-$(mktemp -d)}
 
@@ -60,7 +60,7 @@ trap end EXIT
 trap 'end; exit 130' INT
 trap 'end; exit 143' TERM
 
-"$mavloom" sim --name "hil$number" --hil "px4=tcpin://127.0.0.1:$((4560 + number))" --system $((1 + number)) "$@" &
+"$mavloom" sim --name "$name" --hil "px4=tcpin://127.0.0.1:$((4560 + number))" --system $((1 + number)) "$@" &
 simulator=$!
 # The router's heartbeat is the first frame that PX4 hears, so PX4 answers the router from then on.
 "$mavloom" route --name "px4-$number" --heartbeat 255/191 \

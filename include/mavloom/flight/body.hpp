@@ -17,15 +17,16 @@ inline constexpr double sea_level_density = 1.225;  // kg/m^3, of the standard a
 enum class Frame : std::uint8_t { quad_x, quad_plus, hexa_x, hexa_plus, octo_x, octo_plus, octo_cox, dodeca_cox };
 // Sets of numbers: `standard` is Mavloom's own quadrotor; `iris` flies in Gazebo classic, `jmavsim` in jMAVSim.
 enum class BodyPreset : std::uint8_t { standard, iris, jmavsim };
-// `standard` is Mavloom's own plane; `aerosonde` is the example of Beard and McLain, "Small Unmanned Aircraft" (2012).
-enum class PlanePreset : std::uint8_t { standard, aerosonde };
+// `standard` is Mavloom's own plane; `aerosonde` is the example of Beard and McLain, "Small Unmanned Aircraft" (2012);
+// `gazebo` is the standard plane with the motor of Gazebo classic's, which PX4's airframe 1030 is tuned for.
+enum class PlanePreset : std::uint8_t { standard, aerosonde, gazebo };
 // `standard` is Mavloom's own rover; `sih` has the size and the speed of the rover in PX4's own simulator.
 enum class RoverPreset : std::uint8_t { standard, sih };
 
 inline constexpr std::string_view frame_names[] = {"quad-x", "quad-plus", "hexa-x",   "hexa-plus",
                                                    "octo-x", "octo-plus", "octo-cox", "dodeca-cox"};
 inline constexpr std::string_view body_names[] = {"standard", "iris", "jmavsim"};
-inline constexpr std::string_view plane_names[] = {"standard", "aerosonde"};
+inline constexpr std::string_view plane_names[] = {"standard", "aerosonde", "gazebo"};
 inline constexpr std::string_view rover_names[] = {"standard", "sih"};
 
 struct Rotor {

@@ -8,14 +8,14 @@
 
 namespace mavloom::flight {
 
-// Sets of numbers: `standard` and `sih` are those of PX4's built-in simulator; `jmavsim` and `gazebo` those of jMAVSim
-// and of Gazebo classic's iris.
+// Sets of numbers: `sih` is that of PX4's built-in simulator, and `standard` the same with half of the gyroscope's noise;
+// `jmavsim` and `gazebo` are those of jMAVSim and of Gazebo classic's iris.
 enum class NoisePreset : std::uint8_t { standard, sih, jmavsim, gazebo };
 inline constexpr std::string_view noise_names[] = {"standard", "sih", "jmavsim", "gazebo"};
 
 struct NoiseOptions {
     double accelerometer = 0.1;  // m/s^2, 250 samples a second
-    double gyroscope = 0.01;     // rad/s, the same
+    double gyroscope = 0.005;    // rad/s, the same; at 0.01, PX4 takes a plane that stands for one that turns
     double magnetometer = 0.02;  // gauss, along x and y, 50 samples a second
     double magnetometer_z = 0.03;
     double pressure = 1;    // Pa, of the barometer, 20 samples a second

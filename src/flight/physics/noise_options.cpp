@@ -31,8 +31,8 @@ NoiseOptions noise_of(NoisePreset preset) noexcept {
                     .gps_velocity = 0.013,
                     .gps_climb = 0.025,
                     .gps_velocity_time = 0};
-        case NoisePreset::standard:
-        case NoisePreset::sih: break;
+        case NoisePreset::sih: return {.gyroscope = 0.01};
+        case NoisePreset::standard: break;
     }
     return {};
 }

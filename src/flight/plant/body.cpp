@@ -104,6 +104,10 @@ PlaneBody aerosonde() {
             .turn_radius_m = 10};
 }
 
+// motorConstant times the square of maxRotVelocity; no thrust at 25 m/s (models/plane, gazebo_motor_model.cpp of
+// PX4-SITL_gazebo-classic).
+PlaneBody gazebo_plane() { return {.thrust_n = 8.54858e-6 * 3500 * 3500, .pitch_speed_m_s = 25, .spin_s = 0.02}; }
+
 // From PX4's airframe 10045: mass, wheel base 0.321 m, steering angle 30 degrees, speed at full output. The thrust is
 // ours.
 RoverBody sih() {
@@ -121,7 +125,15 @@ CopterBody body_of(BodyPreset preset) {
     return {};
 }
 
-PlaneBody body_of(PlanePreset preset) { return preset == PlanePreset::aerosonde ? aerosonde() : PlaneBody{}; }
+PlaneBody body_of(PlanePreset preset) {
+    switch (preset) {
+        case PlanePreset::aerosonde: return aerosonde();
+        case PlanePreset::gazebo: return gazebo_plane();
+        case PlanePreset::standard: break;
+    }
+    return {};
+}
+
 RoverBody body_of(RoverPreset preset) { return preset == RoverPreset::sih ? sih() : RoverBody{}; }
 
 double turn_radius(double wheel_base_m, double steering_deg) noexcept {

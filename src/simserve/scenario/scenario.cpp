@@ -188,8 +188,8 @@ private:
         return *std::ranges::find(section.settings, key, &Setting::key);
     }
 
-    // Defaults that depend on the other vehicles.
-    static void complete(config::Section& section, const ScenarioVehicle& vehicle) {
+    // Defaults that depend on the other vehicles and on who flies.
+    void complete(config::Section& section, ScenarioVehicle& vehicle) const {
         const unsigned first = vehicle.options.system.value, last = first + static_cast<unsigned>(vehicle.count) - 1;
         section.label = first == last ? fmt::format("{}", first) : fmt::format("{} to {}", first, last);
         const auto& home = vehicle.options.home;
@@ -197,6 +197,11 @@ private:
         if (Setting& place = find(section, "home"); place.value.empty())
             place.value = fmt::format("{},{},{},{}", home.latitude_deg, home.longitude_deg, home.altitude_m,
                                       home.heading_deg);
+        Setting& body = find(section, "body");
+        if (scenario_.hil && vehicle.options.kind == sim::Kind::plane && body.origin == Origin::by_default) {
+            body.value = "gazebo";
+            vehicle.options.body.plane = body_of(sim::PlanePreset::gazebo);
+        }
     }
 
     [[nodiscard]] SetupResult<void> check_systems(const ScenarioVehicle& vehicle, config::Section& section,

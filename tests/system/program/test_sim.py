@@ -389,7 +389,7 @@ def test_check_shows_the_values_of_a_scenario_with_their_origin(run, tmp_path):
      "4: battery: 'cels' is none of capacity, cells, minutes, start, did you mean 'cells'?"),
     ("[[vehicle]]\n[vehicle.body]\nmass = 1.5\nthrst = 3\n", "4: body: 'thrst' is none of "),
     ("[[vehicle]]\n[vehicle.body]\nmass = 5\n", "2: body: its 4 motors lift 29.4 N, and it weighs 49.0 N"),
-    ("[[vehicle]]\nkind = 'plane'\nbody = 'iris'\n", "3: body: preset: 'iris' is none of standard, aerosonde"),
+    ("[[vehicle]]\nkind = 'plane'\nbody = 'iris'\n", "3: body: preset: 'iris' is none of standard, aerosonde, gazebo"),
     ("[[vehicle]]\n[vehicle.parameters]\nNAV_DLL_ACT = 2\nNAV_DLL_AKT = 2\n",
      "4: a quad has no parameter 'NAV_DLL_AKT', did you mean 'NAV_DLL_ACT'?"),
     ("[[vehicle]]\nsystem = 3\n[[vehicle]]\nsystem = 3\n", "4: two vehicles have system id 3; each needs its own"),

@@ -100,6 +100,7 @@ TEST_P(PilotedPlaneTest, Flies) {
 INSTANTIATE_TEST_SUITE_P(
     Planes, PilotedPlaneTest,
     ::testing::Values(NamedPlane{"aerosonde", body_of(PlanePreset::aerosonde)},
+                      NamedPlane{"gazebo", body_of(PlanePreset::gazebo)},
                       NamedPlane{"heavy", {.mass_kg = 4, .inertia_kg_m2 = {0.24, 0.19, 0.4}, .thrust_n = 32}},
                       NamedPlane{"light", {.mass_kg = 0.8, .inertia_kg_m2 = {0.04, 0.03, 0.07}}},
                       NamedPlane{"weak", {.thrust_n = 7}},

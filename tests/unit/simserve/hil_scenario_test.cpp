@@ -68,6 +68,14 @@ TEST(HilScenario, Px4sVariablesCountUnlessTheScenarioSetsThem) {
     EXPECT_THAT(error_in("[sim]\nhil = \"px4\"\n", {{"PX4_HOME_LAT", "north"}}), HasSubstr("PX4_HOME_LAT"));
 }
 
+// PX4's airframe 1030 limits the motor to 0.6 of its output and climbs at 8 m/s.
+TEST(HilScenario, APlaneHasTheMotorThatPx4sAirframeExpects) {
+    const auto plane = [](std::string_view text) { return scenario_of(text)->vehicles[0].options.body.plane; };
+    EXPECT_NEAR(plane("[sim]\nhil = \"px4\"\n[[vehicle]]\nkind = \"plane\"\n").thrust_n, 104.7, 0.1);
+    EXPECT_EQ(plane("[sim]\nhil = \"px4\"\n[[vehicle]]\nkind = \"plane\"\nbody = \"standard\"\n").thrust_n, 12);
+    EXPECT_EQ(plane("[[vehicle]]\nkind = \"plane\"\n").thrust_n, 12);
+}
+
 TEST(HilScenario, SensorsComeNoMoreOftenThanPx4IntegratesThem) {
     constexpr std::string_view fast = "[sim]\nhil = \"px4\"\nhil_sensors = \"imu:500\"\n";
     EXPECT_THAT(error_in(fast), HasSubstr("PX4_PARAM_IMU_INTEG_RATE=500"));

@@ -271,7 +271,7 @@ TEST(ScenarioValues, APlaneThatCannotFlyIsRefused) {
     EXPECT_THAT(error("inertia_z:0.0001"), HasSubstr("damping or its stiffness is too large"));
     EXPECT_THAT(error("mass:0"), HasSubstr("mass: '0' is not a number from 0.05 to 500"));
     EXPECT_THAT(error("trim:nan"), HasSubstr("trim: 'nan' is not a number from -5 to 10"));
-    EXPECT_THAT(error("iris"), HasSubstr("preset: 'iris' is none of standard, aerosonde"));
+    EXPECT_THAT(error("iris"), HasSubstr("preset: 'iris' is none of standard, aerosonde, gazebo"));
     EXPECT_THAT(error("elevater:1"), HasSubstr("did you mean 'elevator'?"));
 }
 

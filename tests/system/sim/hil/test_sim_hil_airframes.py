@@ -56,7 +56,7 @@ def test_a_rover_drives_turns_and_stops(hil, stand_in):
 
 @pytest.mark.parametrize("kind", ["plane", "rover"])
 def test_controls_out_of_range_are_counted_and_harmless(hil, stand_in, kind):
-    simulator = hil(*COARSE, vehicle={"kind": kind})
+    simulator = hil(*COARSE, vehicle={"kind": kind, "body": "standard"})
     options = {"height": 10.0, "hold": 0.2, "vehicle": kind}
     for faulty, counter in (("nan", "not_numbers"), ("beyond", "clamped")):
         assert stand_in(simulator.hil_port, **options, faulty=faulty).said("report")["time_errors"] == 0
