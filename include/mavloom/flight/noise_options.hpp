@@ -8,7 +8,7 @@
 
 namespace mavloom::flight {
 
-// Sets of numbers: `sih` is that of PX4's built-in simulator, and `standard` the same with half of the gyroscope's noise;
+// Sets of numbers: `sih` is that of PX4's built-in simulator, `standard` the same with half of the gyroscope's noise;
 // `jmavsim` and `gazebo` are those of jMAVSim and of Gazebo classic's iris.
 enum class NoisePreset : std::uint8_t { standard, sih, jmavsim, gazebo };
 inline constexpr std::string_view noise_names[] = {"standard", "sih", "jmavsim", "gazebo"};
