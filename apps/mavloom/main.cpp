@@ -16,7 +16,6 @@
 #include <sstream>
 
 #include "command.hpp"
-#include "ctl/text_table.hpp"
 #include "mavloom/base/shown.hpp"
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/base/version.hpp"
@@ -24,6 +23,7 @@
 #include "output.hpp"
 #include "progress.hpp"
 #include "signals.hpp"
+#include "wrapped.hpp"
 #ifndef MAVLOOM_MINIMAL
 #include "mavloom/ws/transport.hpp"
 #endif

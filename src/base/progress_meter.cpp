@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "mavloom/base/amount.hpp"
 #include "mavloom/base/counted.hpp"
 #include "mavloom/base/durations.hpp"
 
@@ -16,13 +17,6 @@ namespace mavloom {
 namespace {
 
 constexpr Nanoseconds rate_window = std::chrono::seconds(2);
-
-std::string amount_text(double bytes) {
-    constexpr std::array<std::string_view, 4> units{"B", "kB", "MB", "GB"};
-    std::size_t unit = 0;
-    for (; bytes >= 1000 && unit + 1 < units.size(); ++unit) bytes /= 1000;
-    return fmt::format("{:.{}f} {}", bytes, unit == 0 || bytes >= 100 ? 0 : 1, units[unit]);
-}
 
 std::string span_text(Nanoseconds time) {
     const auto s = static_cast<std::uint64_t>(std::max(0.0, seconds(time)));

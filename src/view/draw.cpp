@@ -136,18 +136,8 @@ int selected_line(const std::vector<Line>& lines, const State& state) {
 
 // Breaks the text at blanks. Returns the line below it.
 int put_wrapped(Grid& grid, int y, int end, std::string_view text, Ink ink) {
-    const int width = grid.size().width;
-    int x = 1;
-    while (!text.empty() && y < end) {
-        const auto word = text.substr(0, text.find(' '));
-        text.remove_prefix(std::min(text.size(), word.size() + 1));
-        if (x > 1 && x + width_of(word) > width) {
-            x = 3;
-            if (++y == end) break;
-        }
-        x = grid.put(x, y, word, ink) + 1;
-    }
-    return y + 1;
+    for (int x = 1; !text.empty() && y < end; x = 3) grid.put(x, y++, take_words(text, grid.size().width - x), ink);
+    return y;
 }
 
 void draw_empty(Grid& grid, const Layout& its, const Snapshot& shown) {

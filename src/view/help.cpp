@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "view/table.hpp"
+#include "view/words.hpp"
 
 namespace mavloom::view {
 
@@ -30,18 +31,6 @@ constexpr std::array heard_now{Help{"i", "ask the sender to send this message at
 constexpr std::array recorded{Help{"\u2190 \u2192", "10 seconds back and forward"},
                               Help{"space", "halt the recording, and go on"}, Help{"- +", "half and double speed"},
                               Help{"0 $", "to the begin and to the end"}, Help{"", ""}};
-
-// Removes from `text` the words that fit into `width` cells. Returns them.
-std::string_view take_words(std::string_view& text, int width) {
-    std::size_t end = std::min(text.find(' '), text.size());
-    for (auto next = end; next < text.size(); end = next) {
-        next = std::min(text.find(' ', next + 1), text.size());
-        if (width_of(text.substr(0, next)) > width) break;
-    }
-    const auto words = text.substr(0, end);
-    text.remove_prefix(std::min(text.size(), end + 1));
-    return words;
-}
 
 void add_lines(std::vector<Help>& lines, Help help, int keys_width, int text_width) {
     do {

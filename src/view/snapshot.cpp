@@ -77,7 +77,6 @@ Snapshot take_snapshot(const dialect::Dialect& dialect, const observe::Inspector
     note_silence(shown, inspector);
     note_rates(shown, rates);
     shown.vehicles = inspector.vehicles(now.wall);
-    std::ranges::sort(shown.vehicles, {}, &observe::Vehicle::source);
     shown.hops = inspector.hops();
     shown.alarms = inspector.alarms();
     return shown;

@@ -8,6 +8,7 @@
 
 #include "mavloom/base/text.hpp"
 #include "mavloom/dialect/entry_name.hpp"
+#include "mavloom/view/grid.hpp"
 
 namespace mavloom::view {
 
@@ -62,6 +63,17 @@ std::string count_text(std::uint64_t count) {
 }
 
 std::string percent_text(double ratio) { return fmt::format("{:.1f} %", 100 * ratio); }
+
+std::string_view take_words(std::string_view& text, int width) {
+    std::size_t end = std::min(text.find(' '), text.size());
+    for (auto next = end; next < text.size(); end = next) {
+        next = std::min(text.find(' ', next + 1), text.size());
+        if (width_of(text.substr(0, next)) > width) break;
+    }
+    const auto words = text.substr(0, end);
+    text.remove_prefix(std::min(text.size(), end + 1));
+    return words;
+}
 
 std::string entry_text(const dialect::Dialect& dialect, std::string_view enum_name, std::uint64_t value) {
     std::string text(dialect::short_entry_name(dialect, enum_name, value));

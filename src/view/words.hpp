@@ -20,6 +20,9 @@ namespace mavloom::view {
 [[nodiscard]] std::string count_text(std::uint64_t count);  // "40087", "12.3 M"
 [[nodiscard]] std::string percent_text(double ratio);       // "12.5 %"
 
+// Removes from `text` the words that fit into `width` cells, and at least one. Returns them.
+[[nodiscard]] std::string_view take_words(std::string_view& text, int width);
+
 // The entry of an enum in small letters, without the words that all entries begin with: "quadrotor". "?": it has none.
 [[nodiscard]] std::string entry_text(const dialect::Dialect& dialect, std::string_view enum_name, std::uint64_t value);
 

@@ -9,7 +9,9 @@
 
 #include "ctl/answers.hpp"
 #include "ctl/text_table.hpp"
+#include "mavloom/base/amount.hpp"
 #include "mavloom/base/counted.hpp"
+#include "wrapped.hpp"
 
 namespace mavloom::app {
 
@@ -131,14 +133,6 @@ const std::vector<Layout>& layouts() {
 
 bool is_text(Form form) { return form == Form::text || form == Form::up || form == Form::yes || form == Form::sender; }
 
-std::string bytes_text_of(double bytes) {
-    constexpr std::array units{"B", "kB", "MB", "GB"};
-    std::size_t unit = 0;
-    for (; bytes >= 1000 && unit + 1 < units.size(); ++unit) bytes /= 1000;
-    if (bytes == 0) return "0";
-    return unit == 0 ? fmt::format("{:.0f} B", bytes) : fmt::format("{:.1f} {}", bytes, units[unit]);
-}
-
 std::string tenths(double value) {
     auto text = fmt::format("{:.1f}", value);
     return text == "-0.0" ? "0.0" : text;
@@ -169,7 +163,7 @@ std::string cell_of(const Json& object, const Shown& shown) {
     switch (shown.form) {
         case Form::text: return text_of(*found);
         case Form::count: return fmt::format("{}", found->get<std::uint64_t>());
-        case Form::bytes: return bytes_text_of(found->get<double>());
+        case Form::bytes: return amount_text(found->get<double>());
         case Form::whole: return fmt::format("{:.0f}", found->get<double>());
         case Form::heading: return heading_text(found->get<double>());
         case Form::tenths: return tenths(found->get<double>());

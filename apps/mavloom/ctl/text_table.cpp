@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "mavloom/base/shown.hpp"
+#include "wrapped.hpp"
 
 namespace mavloom::app {
 
@@ -13,10 +14,6 @@ namespace {
 
 constexpr int between_columns = 2, narrowest_text = 12, note_indent = 4;
 constexpr int left_out = -1;  // the width of a column without room
-
-bool begins_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }
-
-int characters_in(std::string_view text) { return static_cast<int>(std::ranges::count_if(text, begins_character)); }
 
 // Where the character of this number begins.
 std::size_t character_place(std::string_view text, int character) {
@@ -100,25 +97,6 @@ TextTable::Fitted TextTable::fitted(int width) const {
         if (!row.note.empty()) out.text += wrapped("  " + row.note, width, note_indent);
     }
     return out;
-}
-
-std::string wrapped(std::string_view text, int width, int indent) {
-    std::string all, line(text.substr(0, std::min(text.find_first_not_of(' '), text.size())));
-    bool is_fresh = true;  // the line has no word yet
-    for (auto at = line.size(); at < text.size();) {
-        const auto end = std::min(text.find(' ', at), text.size());
-        const auto word = text.substr(at, end - at);
-        at = end + 1;
-        if (!is_fresh && characters_in(line) + 1 + characters_in(word) > width) {
-            all += line + "\n";
-            line.assign(static_cast<std::size_t>(indent), ' ');
-            is_fresh = true;
-        }
-        if (!is_fresh) line += ' ';
-        line += word;
-        is_fresh = false;
-    }
-    return all + line + "\n";
 }
 
 }  // namespace mavloom::app

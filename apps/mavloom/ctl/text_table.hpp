@@ -44,8 +44,4 @@ private:
     std::vector<Row> rows_;
 };
 
-// Breaks text at blanks into lines of at most `width` characters, each with a newline. The first line starts with as
-// many blanks as the text, the others with `indent` blanks.
-[[nodiscard]] std::string wrapped(std::string_view text, int width, int indent);
-
 }  // namespace mavloom::app

@@ -10,43 +10,13 @@
 #include "mavloom/base/durations.hpp"
 #include "mavloom/base/shown.hpp"
 #include "mavloom/base/source_text.hpp"
+#include "wrapped.hpp"
 
 namespace mavloom::app {
 
 namespace {
 
 using observe::Finding;
-
-// Breaks lines at spaces. A word that is too long stays whole.
-class Paragraphs {
-public:
-    Paragraphs(std::string& out, int width) : out_(out), width_(static_cast<std::size_t>(std::max(width, 20))) {}
-
-    // The first line begins with `head`; the others are indented as far as `indent`.
-    void add(std::string_view head, std::string_view text, std::size_t indent) {
-        std::string line(head);
-        bool is_begun = false;
-        for (std::size_t at = 0; at < text.size();) {
-            auto end = std::min(text.find(' ', at), text.size());
-            if (text.substr(end).starts_with(" %")) end = std::min(text.find(' ', end + 1), text.size());
-            const auto word = text.substr(at, end - at);
-            if (is_begun && line.size() + 1 + word.size() > width_) {
-                out_ += line + "\n";
-                line.assign(indent, ' ');
-                is_begun = false;
-            }
-            if (is_begun) line += ' ';
-            line += word;
-            is_begun = true;
-            at = end + 1;
-        }
-        out_ += line + "\n";
-    }
-
-private:
-    std::string& out_;
-    std::size_t width_;
-};
 
 std::string kind_of_sender(const observe::Evidence& evidence, Source source) {
     const auto vehicle = std::ranges::find(evidence.vehicles, source, &observe::Vehicle::source);
@@ -78,8 +48,9 @@ std::string source_line(const observe::Evidence& evidence, std::size_t i) {
                        senders_text(evidence, i));
 }
 
-void add_sources(Paragraphs& out, const observe::Evidence& evidence) {
-    for (std::size_t i = 0; i < evidence.sources.size(); ++i) out.add("", printable(source_line(evidence, i)), 2);
+void add_sources(std::string& out, const observe::Evidence& evidence, int width) {
+    for (std::size_t i = 0; i < evidence.sources.size(); ++i)
+        out += wrapped(printable(source_line(evidence, i)), width, 2);
 }
 
 std::string passage_text(const observe::Evidence& evidence, std::size_t first, const observe::Passage& passage) {
@@ -96,9 +67,10 @@ std::string passage_text(const observe::Evidence& evidence, std::size_t first, c
     return text;
 }
 
-void add_passages(Paragraphs& out, const observe::Evidence& evidence) {
+void add_passages(std::string& out, const observe::Evidence& evidence, int width) {
     for (std::size_t i = 0; i < evidence.passages.size(); ++i)
-        for (const auto& passage : evidence.passages[i]) out.add("", printable(passage_text(evidence, i, passage)), 2);
+        for (const auto& passage : evidence.passages[i])
+            out += wrapped(printable(passage_text(evidence, i, passage)), width, 2);
 }
 
 void add_finding(std::string& out, const Finding& finding, TextStyle style) {
@@ -106,19 +78,17 @@ void add_finding(std::string& out, const Finding& finding, TextStyle style) {
     out += '\n';
     out += style.has_color ? fmt::format("{}{}\x1b[0m", color, finding.id) : std::string(finding.id);
     out += "  " + printable(finding.where) + "\n";
-    Paragraphs paragraphs(out, style.width);
-    paragraphs.add("  ", printable(finding.what), 2);
-    if (!finding.why.empty()) paragraphs.add("  Why: ", printable(finding.why), 7);
-    if (!finding.remedy.empty()) paragraphs.add("  Do:  ", printable(finding.remedy), 7);
+    out += wrapped("  " + printable(finding.what), style.width, 2);
+    if (!finding.why.empty()) out += wrapped("  Why: " + printable(finding.why), style.width, 7);
+    if (!finding.remedy.empty()) out += wrapped("  Do:  " + printable(finding.remedy), style.width, 7);
 }
 
 }  // namespace
 
 std::string doctor_text(const observe::Evidence& evidence, std::span<const Finding> findings, TextStyle style) {
     std::string out;
-    Paragraphs paragraphs(out, style.width);
-    add_sources(paragraphs, evidence);
-    add_passages(paragraphs, evidence);
+    add_sources(out, evidence, style.width);
+    add_passages(out, evidence, style.width);
     for (const auto& finding : findings) add_finding(out, finding, style);
     out += findings.empty() ? "Nothing is wrong.\n" : fmt::format("\n{}.\n", counted(findings.size(), "finding"));
     return out;

@@ -8,6 +8,7 @@
 
 #include "entry_text.hpp"
 #include "info/reports.hpp"
+#include "mavloom/base/amount.hpp"
 #include "mavloom/base/counted.hpp"
 #include "mavloom/base/durations.hpp"
 #include "mavloom/base/shown.hpp"
@@ -34,12 +35,6 @@ std::string duration_text(Nanoseconds time) {
     if (whole < 60) return fmt::format("{:.1f} s", seconds(time));
     if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
     return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
-}
-
-std::string size_text(std::uint64_t bytes) {
-    const auto number = static_cast<double>(bytes);
-    if (bytes < 1'000'000) return fmt::format("{:.1f} kB", number / 1e3);
-    return bytes < 1'000'000'000 ? fmt::format("{:.1f} MB", number / 1e6) : fmt::format("{:.2f} GB", number / 1e9);
 }
 
 // Lines of "  label     value". A label is printed once.
@@ -83,7 +78,7 @@ void append_head(Out out, const RecordingInfo& info) {
     const auto& all = info.summary;
     fmt::format_to(out, "{}\n", printable(info.file));
     Labelled lines(out);
-    lines.add("size", fmt::format("{}, {}", size_text(info.size), counted(all.frames, "frame")));
+    lines.add("size", fmt::format("{}, {}", amount_text(static_cast<double>(info.size)), counted(all.frames, "frame")));
     if (all.begin) {
         lines.add("begin", utc_text(*all.begin) + " UTC");
         lines.add("end", utc_text(*all.end) + " UTC");

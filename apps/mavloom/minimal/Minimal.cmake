@@ -1,5 +1,5 @@
 # The program with the commands `route`, `ctl` and `stat` alone, for small computers.
-set(sources arguments.cpp events.cpp main.cpp open_control.cpp output.cpp progress.cpp signals.cpp
+set(sources arguments.cpp events.cpp main.cpp open_control.cpp output.cpp progress.cpp signals.cpp wrapped.cpp
     minimal/web_beside.cpp page/page_hop.cpp)
 file(GLOB command_sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/route/*.cpp"
      "${CMAKE_CURRENT_SOURCE_DIR}/ctl/*.cpp")
