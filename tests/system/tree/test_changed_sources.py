@@ -46,9 +46,14 @@ def test_what_differs_and_what_includes_it(tree, edited, wanted):
     assert changed(tree) == (0, wanted)
 
 
-def test_a_change_of_the_build_is_one_of_everything(tree):
-    (tree / "CMakeLists.txt").write_text("# edited\n")
-    assert changed(tree)[0] == 3
+@pytest.mark.parametrize("edited, of_all", [
+    ("CMakeLists.txt", True), ("cmake/MavloomModule.cmake", True), ("dialects/common.xml", True),
+    ("cmake/MavloomPackage.cmake", False), ("bench/CMakeLists.txt", False),
+])
+def test_a_change_of_how_all_is_compiled_is_one_of_everything(tree, edited, of_all):
+    (tree / edited).parent.mkdir(exist_ok=True)
+    (tree / edited).write_text("# edited\n")
+    assert changed(tree) == (3 if of_all else 0, [])
 
 
 def test_an_unknown_commit_is_an_error(tree):
