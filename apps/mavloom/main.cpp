@@ -20,6 +20,7 @@
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/base/version.hpp"
 #include "mavloom/endpoint/endpoint.hpp"
+#include "mavloom/link/links.hpp"
 #include "output.hpp"
 #include "progress.hpp"
 #include "signals.hpp"
@@ -63,15 +64,21 @@ constexpr std::array commands{
 };
 
 constexpr std::string_view rest_of_footer =
-    "\nExample: mavloom listen udpin://0.0.0.0:14550 --stats\n"
+    "\nExample: mavloom route udpin://0.0.0.0:14550 tcpin://0.0.0.0:5760\n"
     "Exit status: 0 done, 1 failed, 2 wrong use, 3 bad input file, 4 loss or mismatch found, 130/143 ended by a "
     "signal.";
+
+// Recordings are no links; every program writes them.
+bool is_usable(const endpoint::SchemeRow& row) {
+    return row.form == endpoint::Form::recording || link::Links::can_open(row.scheme);
+}
 
 std::string footer() {
     std::string text =
         "`mavloom help COMMAND` prints the options and examples of a command.\n\nEndpoints "
         "(docs/guide/endpoints.md):\n";
-    for (const auto& row : endpoint::scheme_rows) text += fmt::format("  {:<28}{}\n", endpoint::form_of(row), row.help);
+    for (const auto& row : endpoint::scheme_rows)
+        if (is_usable(row)) text += fmt::format("  {:<28}{}\n", endpoint::form_of(row), row.help);
     return text.append(rest_of_footer);
 }
 
@@ -234,7 +241,7 @@ Exit run(std::span<const std::string> words) {
     if (const auto misplaced = option_before_command(words)) return wrong_use(*misplaced, "");
 
     Common common;
-    CLI::App app{"Moves, shows, re-encodes and records MAVLink telemetry, and simulates vehicles.", "mavloom"};
+    CLI::App app{"Moves MAVLink telemetry between vehicles, ground stations, programs and recordings.", "mavloom"};
     app.formatter(std::make_shared<HelpFormatter>());
     app.footer(footer());
     app.require_subcommand(1);

@@ -50,11 +50,20 @@ constexpr OwnTransport transports[] = {
     {endpoint::Scheme::serial, open_serial},     {endpoint::Scheme::shm, open_shm},
 };
 
+// Null: the scheme is not one of this module.
+Open* own_transport(endpoint::Scheme scheme) noexcept {
+    const auto* const found = std::ranges::find(transports, scheme, &OwnTransport::scheme);
+    return found == std::ranges::end(transports) ? nullptr : found->open;
+}
+
 }  // namespace
 
+bool Links::can_open(endpoint::Scheme scheme) noexcept {
+    return own_transport(scheme) != nullptr || has_transport(scheme);
+}
+
 static Opened open(Opening opening) {
-    const auto transport = std::ranges::find(transports, opening.endpoint.scheme, &OwnTransport::scheme);
-    if (transport != std::ranges::end(transports)) return transport->open(std::move(opening));
+    if (auto* const own = own_transport(opening.endpoint.scheme)) return own(std::move(opening));
     if (has_transport(opening.endpoint.scheme)) return open_threaded(std::move(opening));
     return setup_error(SetupCode::usage, fmt::format("this program has no {} links", opening.endpoint.row().name));
 }

@@ -33,6 +33,12 @@ def test_it_is_small(minimal):
     assert minimal.stat().st_size < LARGEST_BYTES
 
 
+def test_its_help_lists_only_what_it_has(minimal):
+    text = call(minimal, "--help")
+    assert re.findall(r"^  (\w+)  ", text, re.MULTILINE) == ["route", "ctl", "stat"]
+    assert "tcpin://" in text and not re.search(r"ws(in|out)|listen", text)
+
+
 def anonymous_kib(process):
     with open(f"/proc/{process.pid}/smaps_rollup") as file:
         return int(re.search(r"^Anonymous: +(\d+) kB", file.read(), re.MULTILINE)[1])

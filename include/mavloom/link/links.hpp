@@ -158,6 +158,9 @@ public:
         const dialect::Dialect& dialect, endpoint::RoutingOptions routing = endpoint::RoutingOptions::refused);
     ~Links() override;
 
+    // True if this program has links of the scheme: those of this module, and those with a registered transport.
+    [[nodiscard]] static bool can_open(endpoint::Scheme scheme) noexcept;
+
     // Numbers new links from `last` + 1 instead of 1. Call it before the first endpoint is added.
     void count_from(LinkId last) noexcept;
 

@@ -102,6 +102,12 @@ def test_help_fits_into_a_terminal(run):
         assert max(map(len, described), default=0) <= 90 and max(map(len, lines)) <= 120, (command, lines)
 
 
+def test_the_help_lists_every_scheme(run):
+    listed = re.findall(r"^  (\w+)://", run("--help").stdout, re.MULTILINE)
+    assert listed == ["udpin", "udpout", "udpbcast", "udpmcast", "tcpin", "tcpout", "wsin", "wsout", "serial", "shm",
+                      "tlog"]
+
+
 def test_help_is_a_command_too(run):
     assert run("help").stdout == run("--help").stdout != ""
     assert run("help", "relay").stdout == run("relay", "--help").stdout != ""
