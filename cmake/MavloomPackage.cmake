@@ -3,7 +3,6 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_VENDOR "Mavloom")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # which would precede the first line of each component's description
-set(CPACK_PACKAGE_DIRECTORY "${PROJECT_BINARY_DIR}/packages")
 set(CPACK_COMPONENTS_ALL mavloom_runtime mavloom_development)
 if(MAVLOOM_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL mavloom_python_debian)
