@@ -10,7 +10,7 @@ import subprocess
 import sysconfig
 
 import pytest
-from test_package import BUILD, call, forwarding_router
+from test_package import BUILD, EXPECTED, OUTSIDE, call, forwarding_router
 from test_wheel import check_use, make_wheel
 
 pytestmark = pytest.mark.timeout(1800)
@@ -74,12 +74,12 @@ def depends_of(package):
             for one in call("dpkg-deb", "--field", package, "Depends").split(",") if one.strip()]
 
 
-def make_clean_root(root, packages):
-    """A Debian with nothing but what the packages depend on."""
+def make_clean_root(root, packages, *programs):
+    """A Debian with these programs, what the packages depend on, and nothing else."""
     suite, uri = mirror()
-    wanted = {name for package in ("mavloom", "python3-mavloom") for name in depends_of(packages[package])}
-    call("debootstrap", "--variant=minbase", f"--include={','.join(sorted(wanted | {'systemd'}))}", suite, root, uri)
-    for package in packages.values():
+    wanted = {name for package in packages for name in depends_of(package)}
+    call("debootstrap", "--variant=minbase", f"--include={','.join(sorted(wanted.union(programs)))}", suite, root, uri)
+    for package in packages:
         shutil.copy(package, root / "tmp")
 
 
@@ -134,6 +134,18 @@ def check_life_of_wheel(root, folder, packages):
     assert not list((root / "usr/local").rglob("*mavloom*"))
 
 
+def check_development(root, package):
+    """An outside project compiles with libmavloom-dev, and its program runs."""
+    def inside(*command):
+        return call("chroot", root, *command)
+    make_clean_root(root, [package], "cmake", "g++", "make")
+    inside("dpkg", "-i", f"/tmp/{package.name}")
+    shutil.copytree(OUTSIDE, root / "tmp/outside")
+    inside("cmake", "-S", "/tmp/outside", "-B", "/tmp/build")
+    inside("cmake", "--build", "/tmp/build")
+    assert inside("/tmp/build/outside") == EXPECTED
+
+
 def test_packages_install_run_and_go_without_a_trace(tmp_path):
     """One test, because making the packages takes most of its time."""
     if "CMAKE_BUILD_TYPE:STRING=Release" not in (BUILD / "CMakeCache.txt").read_text():
@@ -146,8 +158,10 @@ def test_packages_install_run_and_go_without_a_trace(tmp_path):
     check_with_lintian(packages)
     if os.geteuid() != 0 or mirror() is None:
         pytest.skip("a clean root needs root and a Debian mirror in the machine's sources")
-    make_clean_root(tmp_path / "root", packages)
+    make_clean_root(tmp_path / "root", [packages["mavloom"], packages["python3-mavloom"]], "systemd")
     check_life(tmp_path / "root", packages)
     if "MAVLOOM_FULL" in os.environ:
         check_life_of_wheel(tmp_path / "root", tmp_path / "wheels", packages)
+        check_development(tmp_path / "development", packages["libmavloom-dev"])
+        shutil.rmtree(tmp_path / "development")
     shutil.rmtree(tmp_path / "root")
