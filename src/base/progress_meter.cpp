@@ -8,7 +8,6 @@
 #include <string_view>
 #include <utility>
 
-#include "mavloom/base/amount.hpp"
 #include "mavloom/base/counted.hpp"
 #include "mavloom/base/durations.hpp"
 

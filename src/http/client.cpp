@@ -15,8 +15,8 @@
 #include <boost/beast/http/rfc7230.hpp>
 #include <utility>
 
-#include "http/frames.hpp"
-#include "http/web_socket.hpp"
+#include "http/web_socket/frames.hpp"
+#include "http/web_socket/web_socket.hpp"
 #include "mavloom/base/shown.hpp"
 #include "mavloom/net/tcp.hpp"
 

@@ -17,7 +17,7 @@
 
 #include "http/access.hpp"
 #include "http/core.hpp"
-#include "http/web_socket.hpp"
+#include "http/web_socket/web_socket.hpp"
 #include "mavloom/http/server.hpp"
 
 namespace mavloom::http {

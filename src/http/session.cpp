@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "http/core.hpp"
-#include "http/frames.hpp"
+#include "http/web_socket/frames.hpp"
 
 namespace mavloom::http {
 

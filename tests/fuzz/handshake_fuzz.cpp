@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-#include "http/web_socket.hpp"
+#include "http/web_socket/web_socket.hpp"
 #include "mavloom/base/text.hpp"
 #include "mavloom/http/client.hpp"
 #include "mavloom/http/server.hpp"

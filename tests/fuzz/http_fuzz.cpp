@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "http/access.hpp"
-#include "http/frames.hpp"
+#include "http/web_socket/frames.hpp"
 #include "mavloom/base/text.hpp"
 
 namespace {

@@ -9,7 +9,6 @@
 
 #include "ctl/answers.hpp"
 #include "ctl/text_table.hpp"
-#include "mavloom/base/amount.hpp"
 #include "mavloom/base/counted.hpp"
 #include "wrapped.hpp"
 

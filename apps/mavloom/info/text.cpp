@@ -8,7 +8,6 @@
 
 #include "entry_text.hpp"
 #include "info/reports.hpp"
-#include "mavloom/base/amount.hpp"
 #include "mavloom/base/counted.hpp"
 #include "mavloom/base/durations.hpp"
 #include "mavloom/base/shown.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Formats numbers together with their nouns, such as "2 frames". Pure functions that return a new string.
+// Formats numbers together with their nouns, such as "2 frames", and amounts of bytes. Pure functions that return a new
+// string.
 #pragma once
 
 #include <fmt/format.h>
@@ -20,5 +21,8 @@ namespace mavloom {
 [[nodiscard]] inline std::string counted(std::uint64_t count, std::string_view one, std::string_view many = {}) {
     return fmt::format("{} {}", count, plural(count, one, many));
 }
+
+// "12 B", "4.2 kB", "123 MB".
+[[nodiscard]] std::string amount_text(double bytes);
 
 }  // namespace mavloom

@@ -5,20 +5,28 @@
 
 #include <cstdint>
 
-#ifndef __SIZEOF_INT128__
-#include "mavloom/base/folded_product.hpp"
-#endif
-
 namespace mavloom {
 
-#ifdef __SIZEOF_INT128__
-// Folds the 128-bit product, so that every bit of the result depends on every bit of both factors.
+// For processors without integers of 128 bits: by four products of 32-bit halves.
+[[nodiscard]] constexpr std::uint64_t folded_product_of_halves(std::uint64_t a, std::uint64_t b) noexcept {
+    constexpr std::uint64_t half = 0xffff'ffff;
+    const std::uint64_t low = (a & half) * (b & half);
+    const std::uint64_t mixed = (a >> 32) * (b & half) + (low >> 32);
+    const std::uint64_t other = (a & half) * (b >> 32) + (mixed & half);
+    const std::uint64_t high = (a >> 32) * (b >> 32) + (mixed >> 32) + (other >> 32);
+    return high ^ (other << 32 | (low & half));
+}
+
+// The upper 64 bits of the product, exclusive or the lower ones: every bit depends on every bit of both factors.
 [[nodiscard]] constexpr std::uint64_t folded_product(std::uint64_t a, std::uint64_t b) noexcept {
+#ifdef __SIZEOF_INT128__
     __extension__ using Wide = unsigned __int128;
     const Wide product = static_cast<Wide>(a) * b;
     return static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64);
-}
+#else
+    return folded_product_of_halves(a, b);
 #endif
+}
 
 class SecretHash {
 public:

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "mavloom/base/folded_product.hpp"
-
 namespace mavloom {
 namespace {
 

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "http/web_socket.hpp"
+#include "http/web_socket/web_socket.hpp"
 #include "mavloom/http/server.hpp"
 #include "support/eventually.hpp"
 #include "unit/http/raw_client.hpp"

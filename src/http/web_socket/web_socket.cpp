@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "http/web_socket.hpp"
+#include "http/web_socket/web_socket.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "http/frames.hpp"
+#include "http/web_socket/frames.hpp"
 #include "mavloom/base/shown.hpp"
 
 namespace mavloom::http {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "http/frames.hpp"
+#include "http/web_socket/frames.hpp"
 
 #include <sys/random.h>
 

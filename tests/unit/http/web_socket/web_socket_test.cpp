@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "http/frames.hpp"
+#include "http/web_socket/frames.hpp"
 #include "mavloom/http/server.hpp"
 #include "support/eventually.hpp"
 #include "unit/http/raw_client.hpp"

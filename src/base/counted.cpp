@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "mavloom/base/amount.hpp"
-
-#include <fmt/format.h>
+#include "mavloom/base/counted.hpp"
 
 #include <array>
-#include <string_view>
 
 namespace mavloom {
 
