@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # tools/armhf.sh BUILD [MODULE...]: checks that the library compiles for 32-bit Arm, without making object files. BUILD
-# is a build folder of this machine, whose generated files are used. Needs the packages of ./run build, and this one:
-#   apt-get install --no-install-recommends g++-arm-linux-gnueabihf
+# is a build folder of this machine, whose generated files are used. Needs packaging/build.list and armhf.list.
 set -euo pipefail
 build=$(realpath "$1")
 shift

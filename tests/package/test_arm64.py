@@ -3,9 +3,9 @@
 qemu."""
 import os
 import shutil
-import subprocess
 
 import pytest
+from test_debian import check_with_lintian, make_packages
 from test_package import BUILD, ROOT, build_folder, call, forwarding_router
 
 import harness
@@ -37,9 +37,7 @@ def packages(root, tmp_path_factory):
              f"-DMAVLOOM_DIALECTGEN={BUILD}/bin/mavloom_dialectgen", "-DMAVLOOM_TESTS=OFF", "-DMAVLOOM_BENCH=OFF",
              "-DMAVLOOM_PYTHON=OFF")
         call("cmake", "--build", build)
-        subprocess.run(["cpack", "--config", build / "CPackConfig.cmake", "-B", made], check=True,
-                       env={**os.environ, "PATH": f"{root}/tools:{os.environ['PATH']}"})
-    return {path.name.split("_")[0]: path for path in made.glob("*.deb")}
+        return make_packages(build, made, f"{root}/tools:{os.environ['PATH']}")
 
 
 def test_the_packages_are_for_arm64_and_name_their_libraries(packages):
@@ -52,9 +50,7 @@ def test_the_packages_are_for_arm64_and_name_their_libraries(packages):
 
 
 def test_lintian_finds_no_error(packages):
-    done = subprocess.run(["lintian", "--allow-root", "--fail-on", "error", *packages.values()],
-                          stdin=subprocess.DEVNULL, capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout
+    check_with_lintian(packages)
 
 
 def test_the_program_reads_a_flight_under_qemu(packages, root, tmp_path):

@@ -19,9 +19,9 @@ LARGEST_KIB = 7812  # 8 MB, that mavloom.deb installs
 NAMES = ("mavloom", "libmavloom-dev", "python3-mavloom")
 
 
-def make_packages(folder):
+def make_packages(build, folder, path=os.environ["PATH"]):
     """{name: path}"""
-    call("cpack", "--config", BUILD / "CPackConfig.cmake", "-B", folder)
+    call("env", f"PATH={path}", "cpack", "--config", build / "CPackConfig.cmake", "-B", folder)
     return {path.name.split("_")[0]: path for path in folder.glob("*.deb")}
 
 
@@ -150,7 +150,7 @@ def test_packages_install_run_and_go_without_a_trace(tmp_path):
     """One test, because making the packages takes most of its time."""
     if "CMAKE_BUILD_TYPE:STRING=Release" not in (BUILD / "CMakeCache.txt").read_text():
         pytest.skip("packages are made of a release build")
-    packages = make_packages(tmp_path / "packages")
+    packages = make_packages(BUILD, tmp_path / "packages")
     check_files(packages)
     for tool in ("lintian", "debootstrap"):
         if not shutil.which(tool):
