@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The flight clock: as fast as possible, standing still, by steps; and flights that are recorded without any socket."""
+import contextlib
 import json
 import math
 import re
@@ -140,8 +141,8 @@ def test_a_clock_that_runs_takes_no_step(sim, run):
 
 
 def test_a_full_disk_ends_the_flight(run, tmp_path):
-    SmallDisk(tmp_path)
-    done = run("sim", "--speed", "max", "--for", "1h", "--record", tmp_path / "x.tlog")
+    with contextlib.closing(SmallDisk(tmp_path)):
+        done = run("sim", "--speed", "max", "--for", "1h", "--record", tmp_path / "x.tlog")
     assert done.status == 1 and "No space left" in done.stderr, done
 
 
