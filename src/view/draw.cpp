@@ -48,15 +48,30 @@ void draw_title(Grid& grid, int y, const Snapshot& shown, const State& state) {
     grid.reverse(y);
 }
 
-// "1/1 quadrotor px4 Hold armed 87 % 15.9 V"
-int put_vehicle(Grid& grid, int x, int y, const observe::Vehicle& its, const Snapshot& shown) {
-    x = grid.put(x, y, fmt::format("{} {} ", source_text(its.source), entry_text(*shown.dialect, "MAV_TYPE", its.type)),
-                 Ink::accent);
-    if (its.is_silent(shown.now.mono)) x = grid.put(x, y, "silent ", Ink::bad);
-    if (!its.mode.empty()) x = grid.put(x, y, fmt::format("{} ", its.mode), Ink::strong);
-    x = grid.put(x, y, its.is_armed ? "armed " : "disarmed ", its.is_armed ? Ink::warning : Ink::dim);
-    if (its.battery) x = grid.put(x, y, battery_text(its));
-    return x + 3;
+struct Piece {
+    std::string text;
+    Ink ink = Ink::plain;
+};
+
+// "1/1 quadrotor Hold armed 87 % 15.9 V"
+std::vector<Piece> pieces_of(const observe::Vehicle& its, const Snapshot& shown) {
+    const auto kind = entry_text(*shown.dialect, "MAV_TYPE", its.type);
+    std::vector<Piece> pieces{{fmt::format("{} {} ", source_text(its.source), kind), Ink::accent}};
+    if (its.is_silent(shown.now.mono)) pieces.push_back({"silent ", Ink::bad});
+    if (!its.mode.empty()) pieces.push_back({fmt::format("{} ", its.mode), Ink::strong});
+    pieces.push_back(its.is_armed ? Piece{"armed ", Ink::warning} : Piece{"disarmed ", Ink::dim});
+    if (its.battery) pieces.push_back({battery_text(its)});
+    return pieces;
+}
+
+// Returns the place for the next one. The first one stands there even if it is cut.
+int put_vehicle(Grid& grid, int x, int y, const std::vector<Piece>& pieces) {
+    constexpr int between = 3, for_more = 9;
+    int end = x;
+    for (const auto& piece : pieces) end += width_of(piece.text);
+    if (x > 1 && end > grid.size().width - for_more) return x;
+    for (const auto& piece : pieces) x = grid.put(x, y, piece.text, piece.ink);
+    return x + between;
 }
 
 void draw_vehicles(Grid& grid, int y, const Snapshot& shown) {
@@ -64,8 +79,9 @@ void draw_vehicles(Grid& grid, int y, const Snapshot& shown) {
     int x = 1, left = 0;
     for (const auto& vehicle : shown.vehicles) {
         if (vehicle.autopilot == no_autopilot) continue;
-        if (x > 1 && x + 30 > grid.size().width) ++left;
-        else x = put_vehicle(grid, x, y, vehicle, shown);
+        const int next = left == 0 ? put_vehicle(grid, x, y, pieces_of(vehicle, shown)) : x;
+        if (next == x) ++left;
+        x = next;
     }
     if (left != 0) grid.put_right(grid.size().width - 1, y, fmt::format(" +{} more", left), Ink::dim);
     if (x == 1) grid.put(1, y, shown.frames == 0 ? "nothing was heard so far" : "no vehicle", Ink::dim);

@@ -35,7 +35,7 @@ std::unique_ptr<Table> make_table(Tab tab, const Snapshot& shown, const State& s
         case Tab::routes: return route_table(shown, width);
         case Tab::alarms: break;
     }
-    return alarm_table(shown);
+    return alarm_table(shown, width);
 }
 
 Layout layout_of(Size size) noexcept {

@@ -25,7 +25,7 @@ public:
 [[nodiscard]] std::unique_ptr<Table> vehicle_table(const Snapshot& shown, int width);
 [[nodiscard]] std::unique_ptr<Table> link_table(const Snapshot& shown);
 [[nodiscard]] std::unique_ptr<Table> route_table(const Snapshot& shown, int width);
-[[nodiscard]] std::unique_ptr<Table> alarm_table(const Snapshot& shown);
+[[nodiscard]] std::unique_ptr<Table> alarm_table(const Snapshot& shown, int width);
 
 // A column of numbers ends at its right end; the blank before it is part of it. One of rank 0 is always there.
 struct Spec {

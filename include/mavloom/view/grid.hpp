@@ -37,7 +37,6 @@ public:
     Grid(Size size, Glyphs glyphs);
 
     [[nodiscard]] Size size() const noexcept { return size_; }
-    [[nodiscard]] Glyphs glyphs() const noexcept { return glyphs_; }
     [[nodiscard]] const Cell& at(int x, int y) const { return cells_[index_of(x, y)]; }
 
     // Writes UTF-8 from `x` up to `end`, and cuts the rest. Returns the place after it.

@@ -28,7 +28,6 @@ struct Point {
 struct Number {
     const dialect::Field* field = nullptr;
     std::size_t element = 0;
-    friend bool operator==(const Number&, const Number&) = default;
 };
 
 class History {

@@ -255,6 +255,8 @@ TEST_F(DrawTest, RatesEndWhenASenderFallsSilent) {
                 HasSubstr("!  ATTITUDE                           -\n!  HEARTBEAT                          -\n"));
     EXPECT_THAT(silent, HasSubstr("0.00 Hz"));
     EXPECT_THAT(silent, HasSubstr("+  ATTITUDE ")) << "the station's is not silent";
+    type(U"2");
+    EXPECT_THAT(draw(*taken(15s, Rates::recent), state, {40, 10}, Glyphs::ascii).text(), HasSubstr("\n!1/1 "));
 }
 
 TEST_F(DrawTest, ALinkShowsHowFullItsQueueIs) {
@@ -286,6 +288,27 @@ TEST_F(DrawTest, WhileNothingIsHeardHintsAreShown) {
                                                                                " reading udpin://0.0.0.0:14550\n"
                                                                                " a vehicle may be at /dev/ttyACM0: to\n"
                                                                                "   read it, name the source\n"));
+}
+
+TEST_F(DrawTest, AnAlarmIsReadInFortyColumns) {
+    auto shown = taken();
+    shown->alarms = {{.kind = observe::Alarm::Kind::silent,
+                      .severity = observe::Alarm::Severity::error,
+                      .source = vehicle,
+                      .text = "nothing is heard of it",
+                      .since = wall(4s)}};
+    type(U"5");
+    EXPECT_THAT(draw(*shown, state, {40, 10}, Glyphs::ascii).text(), HasSubstr(" FROM     ALARM\n"
+                                                                               " 1/1      nothing is heard of it\n"));
+    EXPECT_THAT(draw(*shown, state, {80, 24}, Glyphs::ascii).text(),
+                HasSubstr(" BEGAN    LASTED   SEVERITY  FROM     ALARM\n"
+                          " 6.00 s   now      error     1/1      nothing is heard of it\n"));
+}
+
+TEST_F(DrawTest, VehiclesWithoutRoomAreCounted) {
+    hear(msg::Heartbeat{.type = 2, .autopilot = 12, .base_mode = 0x81, .custom_mode = 50593792}, 10s, station);
+    EXPECT_THAT(drawn({80, 24}), HasSubstr(" 1/1 quadrotor Hold armed    255/190 quadrotor Hold armed\n"));
+    EXPECT_THAT(drawn({60, 24}), HasSubstr(" 1/1 quadrotor Hold armed                           +1 more\n"));
 }
 
 TEST_F(DrawTest, QuitIsTheEffectOfQ) { EXPECT_EQ(type(U"q"), Effect::quit); }
