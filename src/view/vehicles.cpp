@@ -61,11 +61,11 @@ public:
     void draw_line(Grid& grid, int y, int line) const override {
         const auto& its = shown_.vehicles[static_cast<std::size_t>(line)];
         const bool is_silent = its.is_silent(shown_.now.mono);
-        if (is_silent) grid.put(0, y, "!", Ink::warning);
         for (std::size_t i = 0; i < vehicle_specs.size(); ++i) {
             const auto ink = is_silent ? Ink::dim : i == 4 && its.is_armed ? Ink::warning : Ink::plain;
             put(grid, y, i, is_silent && i == rate_column ? "-" : text_in(i, its, *shown_.dialect), ink);
         }
+        if (is_silent) grid.put(0, y, "!", Ink::warning);
     }
 
 private:
