@@ -20,6 +20,7 @@ set -euo pipefail
 
 here=$(cd "$(dirname "$(readlink -f "$0")")/.." && pwd)
 mavloom=${MAVLOOM_PROGRAM:-$here/build/release/bin/mavloom}
+unset MAVLOOM_PROGRAM # the program would take it for one of its settings
 [ -x "$mavloom" ] || mavloom=$(command -v mavloom) || {
   echo "there is no mavloom: type ./run build first" >&2
   exit 1

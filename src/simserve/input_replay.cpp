@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "simserve/input_replay.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -13,7 +15,11 @@ SetupResult<void> InputReplay::open(const std::filesystem::path& path, const wir
     reader_.emplace(std::move(*opened));
     utc_at_start_ = utc_at_start;
     advance();
-    return {};
+    if (error_) return tl::unexpected(*error_);
+    if (next_) return {};
+    return setup_error(
+        SetupCode::bad_input,
+        fmt::format("{} has no frames: no client sent anything in that session, or it is not whole", path.string()));
 }
 
 void InputReplay::advance() {

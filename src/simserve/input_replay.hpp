@@ -16,7 +16,8 @@ namespace mavloom::simserve {
 
 class InputReplay {
 public:
-    // Without a file, nothing is played. `utc_at_start`: that of the earlier session.
+    // Without a file, nothing is played. `utc_at_start`: that of the earlier session. A file without frames is an
+    // error.
     [[nodiscard]] SetupResult<void> open(const std::filesystem::path& path, const wire::MessageTable& table,
                                          WallTime utc_at_start);
 
@@ -31,6 +32,10 @@ public:
     void set_link(Source source, LinkId link) { links_[source] = link; }
     // True for the links of senders.
     [[nodiscard]] bool owns(LinkId link) const noexcept;
+    // Of the file so far, bytes that were not played: damaged ones, and those of a frame that was cut off.
+    [[nodiscard]] std::uint64_t lost_bytes() const noexcept {
+        return reader_ ? reader_->counters().lost_bytes.value() : 0;
+    }
     // The file cannot be read any further.
     [[nodiscard]] const std::optional<SetupError>& error() const noexcept { return error_; }
     [[nodiscard]] std::uint64_t frames() const noexcept { return frames_; }

@@ -7,6 +7,7 @@
 #include <array>
 #include <utility>
 
+#include "mavloom/base/counted.hpp"
 #include "mavloom/base/durations.hpp"
 #include "mavloom/control/post_box.hpp"
 #include "mavloom/link/flush.hpp"
@@ -235,6 +236,10 @@ SetupResult<void> Simulator::finish(Nanoseconds limit) {
     while (!posted_->empty()) posted_->run_one();
     connections_->close_inlet();
     shared_->close();
+    if (const auto lost = input_->lost_bytes(); lost != 0)
+        notice_(config::LogLevel::warning,
+                fmt::format("the replayed session is damaged or cut off: {} of its file were not played",
+                            counted(lost, "byte")));
     const auto received = received_->close();
     if (auto closed = recording_->close(); !closed) return closed;
     if (input_->error()) return tl::unexpected(*input_->error());

@@ -62,7 +62,9 @@ constexpr KeyOption key_options[] = {
     {"--speed", "sim", "speed",
      "speed of the flight clock, 0.1 to 100 (default: 1), or max: as fast as the vehicles can fly", "X"},
     {"--for", "sim", "for",
-     "end after this time: 10s, 2m; with --speed max, of the flight, but with --hil always of real time", "TIME"},
+     "end after this time: 10s, 2m; of the flight with --speed max, with --record alone and in sessions that can be "
+     "repeated, but of real time with --hil",
+     "TIME"},
     {"--hil", "sim", "hil",
      "let PX4 fly the vehicles, in lock-step (docs/guide/hil.md): it connects to port 4560, the PX4 of a second "
      "vehicle "
@@ -193,7 +195,7 @@ Exit print_report(const SimOptions& options, const Scenario& scenario, const Sim
 
 void fly(const Scenario& scenario, Simulator& simulator) {
     auto manager = control::ServiceManager::from_environment();
-    const bool ends_by_clock = scenario.duration && scenario.speed != simserve::max_speed && !scenario.is_repeatable();
+    const bool ends_by_clock = scenario.duration && !scenario.ends_by_flight();
     const MonoTime end = ends_by_clock ? mono_now() + *scenario.duration : MonoTime::max();
     manager.ready();
     while (!Signals::received() && !simulator.has_ended() && mono_now() < end) {
@@ -204,8 +206,7 @@ void fly(const Scenario& scenario, Simulator& simulator) {
 }
 
 sim::FlightTime flight_end_of(const Scenario& scenario) {
-    const bool is_of_flight = scenario.speed == simserve::max_speed || scenario.is_repeatable();
-    return is_of_flight && scenario.duration ? *scenario.duration : sim::FlightTime::max();
+    return scenario.ends_by_flight() && scenario.duration ? *scenario.duration : sim::FlightTime::max();
 }
 
 SetupResult<std::unique_ptr<Simulator>> make_simulator(const Common& common, const Scenario& scenario,

@@ -37,7 +37,7 @@ struct Scenario {
     double speed = 1;
     std::optional<sim::Profile> profile{};
     std::vector<sim::MessageRate> rates{};
-    std::optional<Nanoseconds> duration{};  // empty: until a signal; at `max_speed`, of the flight
+    std::optional<Nanoseconds> duration{};  // empty: until a signal
     WallTime start_time{};                  // UTC at flight time 0; the epoch: when the simulator starts
     std::string recording;                  // path of the tlog file that the vehicles send to; empty: none
     std::string input_recording, input;     // paths of tlog files: what they receive is written; is read
@@ -61,8 +61,16 @@ struct Scenario {
     [[nodiscard]] std::vector<endpoint::Endpoint> hil_endpoints() const;
     // The faults that a vehicle with `hil` gets, in the order of their times.
     [[nodiscard]] std::vector<hil::TimedFault> hil_faults(SystemId system) const;
+    // Its vehicles send to a recording only.
+    [[nodiscard]] bool only_records() const noexcept {
+        return !recording.empty() && endpoints.empty() && ring.name.empty();
+    }
     // See SimulatorOptions.
-    [[nodiscard]] bool is_repeatable() const noexcept { return !input_recording.empty() || !input.empty(); }
+    [[nodiscard]] bool is_repeatable() const noexcept {
+        return !input_recording.empty() || !input.empty() || only_records();
+    }
+    // Whether `duration` is a time of the flight.
+    [[nodiscard]] bool ends_by_flight() const noexcept { return speed == max_speed || is_repeatable(); }
 };
 
 using config::Override;

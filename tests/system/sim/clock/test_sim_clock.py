@@ -55,6 +55,10 @@ def test_the_same_seed_gives_the_same_bytes(fly):
     assert fly("--seed", 2).read_bytes() != first
 
 
+def test_a_recording_alone_is_the_same_at_each_speed(fly):
+    assert fly().read_bytes() == fly("--speed", 60).read_bytes()
+
+
 def test_orders_of_the_time_line_are_flown_at_their_times(fly):
     path = fly()
     heights, north = {1: {}, 2: {}}, {1: 0, 2: 0}
@@ -244,6 +248,19 @@ def test_without_its_input_the_session_is_another_one(sim, run, tmp_path):
 def test_wrong_use_of_sessions(run, tmp_path, arguments, status, text):
     done = run("sim", *arguments, cwd=tmp_path)
     assert done.status == status and text in done.stderr, done
+
+
+def test_a_session_without_frames_is_refused(run, tmp_path):
+    (tmp_path / "in.tlog").write_bytes(b"")
+    done = run("sim", "--replay-input", tmp_path / "in.tlog", "--for", "1s", "--start-time", "2026-11-29T12:00:00Z")
+    assert done.status == 3 and "in.tlog has no frames" in done.stderr, done
+
+
+def test_a_session_that_was_cut_is_reported(fly, run, tmp_path):
+    (tmp_path / "in.tlog").write_bytes(fly().read_bytes()[:1000])
+    done = run("sim", "--replay-input", tmp_path / "in.tlog", "--for", "1s", "--start-time", "2026-11-29T12:00:00Z",
+               "--record", tmp_path / "x.tlog", "--speed", "max")
+    assert done.status == 0 and "is damaged or cut off" in done.stderr, done
 
 
 def test_what_is_no_recording_is_not_played(run, tmp_path):
