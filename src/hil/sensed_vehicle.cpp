@@ -14,7 +14,7 @@ constexpr std::uint64_t wind_stream = 0x77696e64;  // the wind draws from number
 
 flight::GeoPoint place_of(const flight::Home& home) { return {home.latitude_deg, home.longitude_deg, home.altitude_m}; }
 
-unsigned steps_between(double imu_hz, double hz) { return static_cast<unsigned>(std::max(1.0, imu_hz / hz + 0.5)); }
+double steps_between(double imu_hz, double hz) { return std::max(1.0, imu_hz / hz); }
 
 flight::SensorTiming timing_of(const SensorRates& rates) {
     return {.step_s = std::chrono::duration<double>(rates.step()).count(),

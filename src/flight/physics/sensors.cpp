@@ -21,6 +21,11 @@ std::array<SmoothWander, 3> wander(const Vector3& sigma, double tau, double dt) 
 std::array<GaussMarkov, 3> markov(double horizontal, double down, double tau, double dt) {
     return {GaussMarkov(horizontal, tau, dt), GaussMarkov(horizontal, tau, dt), GaussMarkov(down, tau, dt)};
 }
+// In the first of every `period` steps.
+bool is_sampled(std::uint64_t step, double period) noexcept {
+    return step == 0 ||
+           std::floor(static_cast<double>(step) / period) > std::floor(static_cast<double>(step - 1) / period);
+}
 double gps_interval(const SensorTiming& timing) { return timing.gps * timing.step_s; }
 template <class Noise>
 Vector3 values(const std::array<Noise, 3>& noises) {
@@ -59,7 +64,8 @@ void Sensors::step(const Kinematics& truth, const Vector3& air_velocity, bool at
     step_estimate(truth, share);
     step_imu(truth);
     step_vibration(at_rest);
-    samples_ = {steps_ % timing_.magnetometer == 0, steps_ % timing_.barometer == 0, steps_ % timing_.gps == 0};
+    samples_ = {is_sampled(steps_, timing_.magnetometer), is_sampled(steps_, timing_.barometer),
+                is_sampled(steps_, timing_.gps)};
     if (samples_.magnetometer) step_magnetometer(truth.attitude);
     if (samples_.barometer) step_barometer(truth, air_velocity, origin_altitude - truth.position.z(), air_density);
     if (samples_.gps) {

@@ -41,12 +41,13 @@ struct GpsFix {
     double horizontal_m = 0, vertical_m = 0, speed_m_s = 0;  // accuracies
 };
 
-// How long a step is, and how many steps lie between two samples.
+// How long a step is, and how many steps lie between two samples: at least 1, on average. With 2.5, every other sample
+// comes after 2 steps, and the rest after 3.
 struct SensorTiming {
     double step_s = flight::step_s;
-    unsigned magnetometer = 5;  // 50 Hz
-    unsigned barometer = 12;    // 20 Hz
-    unsigned gps = 31;          // 8 Hz
+    double magnetometer = 5;  // 50 Hz
+    double barometer = 12.5;  // 20 Hz
+    double gps = 31.25;       // 8 Hz
 };
 // The sensors that took a sample in the last step. All others show an older one.
 struct SensorSamples {
@@ -128,7 +129,7 @@ private:
     ImuSample imu_;
     GpsFix gps_;
     double vibration_ = 0;
-    unsigned steps_ = 0;
+    std::uint64_t steps_ = 0;
 };
 
 }  // namespace mavloom::flight
