@@ -79,9 +79,16 @@ void Craft::move(const Outputs& outputs, bool armed) {
     outputs_ = outputs;
     stop_failed_motors(outputs_, plant_->channels(), sensors_.failures());
     plant_->step(outputs_, surroundings(), step_s);
+    if (!plant_->is_finite()) put_back();
     battery_.step(plant_->load(), step_s);
     if (!armed) battery_.rest(step_s);
     sense();
+}
+
+void Craft::put_back() {
+    plant_->place({home_place_.x(), home_place_.y(), ground_z()}, home_yaw_);
+    pilot_->start(truth());
+    ++put_backs_;
 }
 
 void Craft::set_failures(const Failures& failures) {

@@ -25,6 +25,8 @@ public:
     void step(const Outputs& outputs, bool armed);
     // Puts the vehicle at rest at a place of the local frame, which may be in the air.
     void place(const Vector3& position, double heading);
+    // How often the motion was no longer finite, so that the vehicle was put back at its home, at rest.
+    [[nodiscard]] unsigned put_backs() const noexcept { return put_backs_; }
     // Boots the vehicle again where it stands.
     void reboot();
 
@@ -71,6 +73,7 @@ public:
 private:
     [[nodiscard]] Surroundings surroundings() const;
     void move(const Outputs& outputs, bool armed);
+    void put_back();
     void sense();
 
     const Kind kind_;
@@ -86,6 +89,7 @@ private:
     Vector3 home_place_ = Vector3::Zero();
     double home_yaw_ = 0, air_density_, last_range_ = 0;
     FlightTime time_{};
+    unsigned put_backs_ = 0;
     bool has_origin_ = false;
     mutable GeoPoint position_;
     mutable bool position_is_old_ = true;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "flight/faults.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace mavloom::flight {
@@ -104,6 +106,13 @@ Failure* part_of(Failures& failures, FaultPart part) noexcept {
 }  // namespace
 
 std::span<const FaultForm> fault_forms() noexcept { return forms; }
+
+std::string text_of(const Fault& fault) {
+    std::string text = fmt::format("{} {}", fault_part_names[static_cast<std::size_t>(fault.part)],
+                                   fault_kind_names[static_cast<std::size_t>(fault.kind)]);
+    for (std::size_t i = 0; i < fault.count; ++i) text += fmt::format(" {:g}", fault.numbers[i]);
+    return text;
+}
 
 void Faults::set(const Fault& fault) {
     if (fault.part == all) return faults_.clear();

@@ -3,6 +3,7 @@
 // reboot, as broken hardware does.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "flight/physics/failures.hpp"
@@ -18,6 +19,8 @@ public:
 
     [[nodiscard]] Failures failures() const noexcept;
     [[nodiscard]] Deceptions deceptions() const noexcept;
+    // All of them, in the order in which they were set.
+    [[nodiscard]] std::span<const Fault> list() const noexcept { return faults_; }
     // True if the part has a fault that is neither a failure nor a deception: a heartbeat or radio that is off.
     [[nodiscard]] bool has(FaultPart part) const noexcept;
 

@@ -37,6 +37,16 @@ void Flight::begin_random_motion() {
 void Flight::step() {
     if (steps_++ % navigation_period == 0) random_pilot_ ? steer_at_random() : supervise();
     context_.craft.step(navigator_.guidance().setpoint(), context_.armed);
+    if (context_.craft.put_backs() != put_backs_) on_put_back();
+}
+
+// The pilot's autopilot is as good as new. If it happens again and again, one text is enough.
+void Flight::on_put_back() {
+    if (std::exchange(put_backs_, context_.craft.put_backs()) == 0)
+        context_.say(Severity::critical, "Motion became infinite: back at home, check body and wind");
+    (void)commander_.disarm(true, OrderedBy::vehicle);
+    detector_.reset();
+    report_changes();
 }
 
 unsigned Flight::steps_to_change() const noexcept {

@@ -80,7 +80,8 @@ public:
     Outcome enable_fence(bool enabled);
     // Replaces the failures that clients injected. They end with a boot.
     Outcome inject_failures(const Failures& failures);
-    // A fault by the simulator's operator. Those of the heartbeat and the radio are kept for `is_off`.
+    // A fault by the simulator's operator. Those of the heartbeat and the radio are kept for `is_off`. "all ok" also
+    // ends the failures that clients injected.
     Outcome set_fault(const Fault& fault);
     Outcome set_battery(double share);
     Outcome restore_battery();  // to its charge at the start
@@ -123,6 +124,8 @@ public:
     [[nodiscard]] InnerTargets inner_targets() const { return context_.craft.targets(); }
     [[nodiscard]] double last_range() const noexcept { return context_.craft.last_range(); }
     // True if the operator switched this part off.
+    [[nodiscard]] std::span<const Fault> faults() const noexcept { return faults_.list(); }
+    [[nodiscard]] unsigned put_backs() const noexcept { return put_backs_; }
     [[nodiscard]] bool is_off(FaultPart part) const noexcept { return faults_.has(part); }
     [[nodiscard]] const Battery& battery() const noexcept { return context_.craft.battery(); }
     [[nodiscard]] const Vector3& wind() const noexcept { return context_.craft.wind(); }
@@ -179,6 +182,7 @@ private:
     }
     void move_origin(const GeoPoint& origin);
     void apply_failures();
+    void on_put_back();
     Outcome begin_takeoff(const TakeoffOrder& order);
     Outcome begin_reposition(const RepositionOrder& order);
     Outcome begin_orbit(const OrbitOrder& order);
@@ -196,6 +200,7 @@ private:
     FlightContext context_;
     Inputs inputs_;
     Failures injected_;
+    unsigned put_backs_ = 0;  // of the craft, as far as they were handled
     Faults faults_;
     Navigator navigator_;
     LandedDetector detector_;

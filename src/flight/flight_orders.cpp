@@ -274,6 +274,7 @@ Outcome Flight::set_fault(const Fault& fault) {
     return carry_out([&]() -> Outcome {
         if (fault.kind == FaultKind::ok && (fault.part == FaultPart::battery || fault.part == FaultPart::all))
             context_.craft.battery().restore();
+        if (fault.part == FaultPart::all) injected_ = {};
         faults_.set(fault);
         apply_failures();
         return Result::accepted;

@@ -129,6 +129,11 @@ void LockStep::pause(MonoTime) noexcept {
     allowed_ = 0;
 }
 
+bool LockStep::is_stepping(MonoTime now) const noexcept {
+    if (!is_paused_ || state_ == State::waiting) return false;
+    return allowed_ != 0 || (!is_answered_ && now < sent_ + answer_limit);
+}
+
 void LockStep::resume(MonoTime now) noexcept {
     if (!is_paused_) return;
     is_paused_ = is_measuring_ = false;

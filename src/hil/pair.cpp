@@ -80,7 +80,7 @@ public:
     }
     std::span<const wire::FrameView> step(MonoTime now) {
         const FlightTime time = lock_step_.take(now);
-        vehicle_.step(outputs_);
+        if (!vehicle_.step(outputs_)) ++counters_.not_finite;
         return messages_.write(vehicle_, time);
     }
 
@@ -177,6 +177,7 @@ SetupResult<void> Pair::fail(const flight::Fault& fault) {
     return {};
 }
 
+std::span<const flight::Fault> Pair::faults() const noexcept { return parts_->vehicle().faults(); }
 const LockStep& Pair::lock_step() const noexcept { return parts_->lock_step(); }
 const PairCounters& Pair::counters() const noexcept { return parts_->counters(); }
 bool Pair::is_known() const noexcept { return parts_->is_known(); }

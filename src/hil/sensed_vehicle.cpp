@@ -43,7 +43,7 @@ void SensedVehicle::place_at_start() {
     push_left_ = 0;
 }
 
-void SensedVehicle::step(const flight::Outputs& outputs) {
+bool SensedVehicle::step(const flight::Outputs& outputs) {
     wind_.step();
     around_.wind = wind_.velocity();
     around_.air_density = flight::density_at(frame_.origin().altitude - truth().position.z());
@@ -52,7 +52,10 @@ void SensedVehicle::step(const flight::Outputs& outputs) {
     flight::Outputs working = outputs;
     flight::stop_failed_motors(working, plant_->channels(), sensors_.failures());
     plant_->step(working, around_, step_s_);
+    const bool is_finite = plant_->is_finite();
+    if (!is_finite) place_at_start();
     sense();
+    return is_finite;
 }
 
 // A resting vehicle does not move, and its motors do not shake it.

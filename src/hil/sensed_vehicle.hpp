@@ -20,8 +20,9 @@ class SensedVehicle {
 public:
     SensedVehicle(const flight::VehicleOptions& options, const SensorRates& rates);
 
-    // Advances by one step with these outputs.
-    void step(const flight::Outputs& outputs);
+    // Advances by one step with these outputs. Returns false if the motion was no longer finite, so that the vehicle
+    // is back at its start.
+    [[nodiscard]] bool step(const flight::Outputs& outputs);
     // Puts it at rest where it started.
     void place_at_start();
     // Within `push_time`, the velocity (m/s, local frame) and the rates (rad/s, body frame) change by so much, unless
@@ -33,6 +34,7 @@ public:
     // A fault on purpose. It stays until it is ended, also when the vehicle is put at its start.
     void fail(const flight::Fault& fault);
 
+    [[nodiscard]] std::span<const flight::Fault> faults() const noexcept { return faults_.list(); }
     [[nodiscard]] const flight::Kinematics& truth() const noexcept { return plant_->motion(); }
     [[nodiscard]] const flight::Sensors& sensors() const noexcept { return sensors_; }
     [[nodiscard]] const FurtherImus& further_imus() const noexcept { return further_imus_; }

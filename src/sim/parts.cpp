@@ -148,6 +148,7 @@ Outcome Parts::set_fault(const Fault& fault) {
     if (fault.part == FaultPart::sequence) radio.restart_sequences();
     else if (fault.part == FaultPart::autopilot) reboot(true);
     else if (Outcome outcome = flight.set_fault(fault); !outcome.is_accepted()) return outcome;
+    if (fault.part == FaultPart::all) failures.clear();
     radio.set_off(flight.is_off(FaultPart::radio));
     radio.withhold_heartbeat(flight.is_off(FaultPart::heartbeat));
     return Result::accepted;

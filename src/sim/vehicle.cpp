@@ -36,6 +36,12 @@ bool is_for(SystemId system, const wire::FrameView& frame, const wire::MessageIn
     return component == 0 || component == autopilot_component.value || component == mission_planner;
 }
 
+std::vector<std::string> faults_of(const Flight& flight, const FailureTable& injected) {
+    std::vector<std::string> all = injected.texts();
+    for (const Fault& fault : flight.faults()) all.push_back(text_of(fault));
+    return all;
+}
+
 }  // namespace
 
 std::vector<StreamInfo> stream_infos() {
@@ -188,7 +194,9 @@ VehicleStatus Vehicle::status() const {
             .battery_volts = flight.battery().voltage(),
             .mission_items = flight.plans().mission().size(),
             .mission_current = flight.mission().current,
-            .since_boot = flight.since_boot()};
+            .since_boot = flight.since_boot(),
+            .put_backs = flight.put_backs(),
+            .faults = faults_of(flight, parts_->failures)};
 }
 
 bool Vehicle::has_mode(std::string_view name) const {

@@ -61,7 +61,9 @@ void append_vehicle(std::string& text, const sim::VehicleStatus& s) {
                        {"battery_v", rounded(s.battery_volts, 1e3)},
                        {"mission_items", s.mission_items},
                        {"mission_current", s.mission_current},
-                       {"boot_s", rounded(seconds(s.since_boot), 1e3)}});
+                       {"boot_s", rounded(seconds(s.since_boot), 1e3)},
+                       {"put_backs", s.put_backs},
+                       {"faults", s.faults}});
 }
 
 std::vector<sim::VehicleStatus> statuses_of(const std::vector<sim::Vehicle*>& vehicles) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The answers of `ctl` on a terminal.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -60,6 +61,7 @@ const std::vector<Layout>& layouts() {
           {"HEIGHT, M", "relative_alt_m", Form::tenths, 1},
           {"HEADING", "heading_deg", Form::heading, 6},
           {"BATTERY, %", "battery_percent", Form::whole, 2},
+          {"FAULTS", "faults", Form::text, 6},
           {"LATITUDE", "lat", Form::degrees, 7},
           {"LONGITUDE", "lon", Form::degrees, 7}}},
         {"hil",
@@ -71,6 +73,7 @@ const std::vector<Layout>& layouts() {
           {"SPEED", "speed", Form::hundredths},
           {"STEPS", "steps", Form::count, 1},
           {"UNANSWERED", "unanswered"},
+          {"FAULTS", "faults", Form::text, 5},
           {"PX4, US", "answer_median_us", Form::tenths, 2},
           {"99 %", "answer_p99_us", Form::tenths, 3},
           {"OURS, US", "own_median_us", Form::tenths, 4},
@@ -125,6 +128,7 @@ const std::vector<Layout>& layouts() {
           {"LATE 99 %, MS", "jitter_p99_ms", Form::tenths, 5},
           {"LINK", "link", Form::text, 6}}},
         {"clock", {{"FLIGHT, S", "flight_s", Form::hundredths}, {"PAUSED", "paused", Form::yes}}},
+        {"step", {{"VEHICLE", "system"}, {"MOVED, S", "moved_s", Form::text}}},
         {"parameter",
          {{"VEHICLE", "system", Form::count}, {"PARAMETER", "name", Form::text}, {"VALUE", "value", Form::text}}}};
     return all;
@@ -152,6 +156,8 @@ std::string filled_text(const Json& link) {
 
 std::string text_of(const Json& value) {
     if (value.is_string()) return value.get<std::string>();
+    if (value.is_array())
+        return value.empty() ? "-" : fmt::format("{}", fmt::join(value.get<std::vector<std::string>>(), "; "));
     return value.is_number_float() ? fmt::format("{:.7g}", value.get<double>()) : value.dump();
 }
 

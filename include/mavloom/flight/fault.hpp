@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace mavloom::flight {
@@ -51,5 +52,7 @@ struct Fault {
     std::array<double, 2> numbers{};
     std::size_t count = 0;  // of numbers
 };
+// As users write it: "gps off", "motor off 1".
+[[nodiscard]] std::string text_of(const Fault& fault);
 
 }  // namespace mavloom::flight

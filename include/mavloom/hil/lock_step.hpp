@@ -81,6 +81,8 @@ public:
     [[nodiscard]] bool is_paused() const noexcept { return is_paused_; }
     // While it is paused, this many steps may begin.
     void allow(std::uint64_t steps) noexcept { allowed_ += steps; }
+    // While it is paused: some of these steps have not begun, or the answer to the last one is on its way.
+    [[nodiscard]] bool is_stepping(MonoTime now) const noexcept;
 
     [[nodiscard]] State state() const noexcept { return state_; }
     // Of the last step.

@@ -40,6 +40,7 @@ enum class Heard : std::uint8_t {
 struct PairCounters {
     std::uint64_t clamped = 0;      // messages with a control beyond its range
     std::uint64_t not_numbers = 0;  // messages with a control that is NaN or infinite
+    std::uint64_t not_finite = 0;   // steps after which the motion was not finite: the vehicle is back at its start
     std::uint64_t restarts = 0;     // autopilots that came after the first
 };
 
@@ -92,6 +93,7 @@ public:
     // A fault on purpose. It stays over `reset` and with the next autopilot, as broken hardware does. A part that PX4
     // simulates itself, or a motor that the vehicle does not have, is an error.
     [[nodiscard]] SetupResult<void> fail(const flight::Fault& fault);
+    [[nodiscard]] std::span<const flight::Fault> faults() const noexcept;
 
     [[nodiscard]] const LockStep& lock_step() const noexcept;
     [[nodiscard]] const PairCounters& counters() const noexcept;

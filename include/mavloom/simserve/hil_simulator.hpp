@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,6 +39,7 @@ struct HilReport {
     hil::PairStatus status;
     hil::StepCounters steps;
     hil::PairCounters counters;
+    std::vector<std::string> faults;  // on purpose: "gps off"
     double speed_reached = 0;
     // Of a step: from its sensor messages to the autopilot's answer, and our computing time.
     Nanoseconds answer_median{}, answer_p99{}, own_median{}, own_p99{};
@@ -77,6 +79,9 @@ public:
     [[nodiscard]] std::vector<HilReport> reports() const;
     // The vehicles whose autopilot has this system id; without one, all.
     [[nodiscard]] std::vector<hil::Pair*> pairs(std::optional<SystemId> system);
+    // Moves paused flights by this time, rounded up to whole steps. Returns when their autopilots have answered the
+    // last step, or after `limit`; the rest of the steps then follows.
+    void step(std::span<hil::Pair* const> pairs, Nanoseconds time, Nanoseconds limit);
     [[nodiscard]] link::Links& links() noexcept { return *links_; }
     [[nodiscard]] const HilOptions& options() const noexcept { return options_; }
     [[nodiscard]] Nanoseconds uptime() const { return mono_now() - created_; }
@@ -90,6 +95,7 @@ private:
     void on_link_down(LinkId link, link::EndpointId endpoint, std::string_view why) override;
     void on_notice(link::EndpointId endpoint, std::string_view text) override;
 
+    void exchange(MonoTime deadline);
     [[nodiscard]] MonoTime next_due() const noexcept;
     [[nodiscard]] HilPort* port_of(link::EndpointId endpoint) noexcept;
     void step_due(MonoTime now);

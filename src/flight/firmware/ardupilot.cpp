@@ -133,6 +133,7 @@ constexpr Texts common_texts{
     .disarmed = "Throttle disarmed",
     .disarmed_by_landing = "Throttle disarmed",
     .disarmed_without_takeoff = "Throttle disarmed",
+    .disarmed_by_crash = "Crash: Disarming",
     .refusals = {.booting = "PreArm: AHRS: EKF3 still initialising",
                  .position = "PreArm: GPS 1: Bad fix",
                  .home = "PreArm: AHRS: waiting for home",

@@ -32,7 +32,7 @@ struct Refusals {
 // is empty.
 struct Texts {
     std::string_view banner{};  // name and version, for a client that connects
-    std::string_view armed{}, disarmed{}, disarmed_by_landing{}, disarmed_without_takeoff{};
+    std::string_view armed{}, disarmed{}, disarmed_by_landing{}, disarmed_without_takeoff{}, disarmed_by_crash{};
     std::string_view takeoff_detected{}, landing_detected{};
     Refusals refusals{};
     std::string_view not_ready{}, no_position{}, not_landed{};

@@ -84,6 +84,7 @@ constexpr Texts px4_texts_table{
     .disarmed = "Disarmed by external command",
     .disarmed_by_landing = "Disarmed by landing",
     .disarmed_without_takeoff = "Disarmed by auto preflight disarming",
+    .disarmed_by_crash = "Disarmed by failure detector",
     .takeoff_detected = "Takeoff detected",
     .landing_detected = "Landing detected",
     .refusals = {.position = "Navigation error: No valid position estimate"},

@@ -15,6 +15,11 @@ void Plant::integrate_step(const Vector3& acceleration, const Vector3& rates, do
     motion_.attitude = integrate(motion_.attitude, rates, dt);
 }
 
+bool Plant::is_finite() const {
+    return motion_.position.allFinite() && motion_.velocity.allFinite() && motion_.acceleration.allFinite() &&
+           motion_.attitude.coeffs().allFinite() && motion_.rates.allFinite();
+}
+
 void Plant::rest_at(const Vector3& position, double heading) {
     motion_ = {.position = position, .attitude = to_quaternion({0, 0, heading})};
     air_velocity_ = Vector3::Zero();

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <string_view>
 
 #include "mavloom/msg/enums/failure_type.hpp"
@@ -64,6 +65,15 @@ std::string list_of(std::uint16_t instances) {
     return text;
 }
 
+std::string_view name_of_unit(std::uint32_t unit) noexcept {
+    const Unit* const row = find_unit(unit);
+    return row == nullptr ? "unknown" : row->name;
+}
+
+std::string described(std::uint32_t unit, std::uint32_t type, std::uint16_t instances) {
+    return fmt::format("{} {}, {}", name_of_unit(unit), name_of_type(type), list_of(instances));
+}
+
 }  // namespace
 
 Result FailureTable::inject(std::uint32_t unit, std::uint32_t type, std::uint16_t instances) noexcept {
@@ -92,10 +102,15 @@ void FailureTable::remove(std::uint32_t unit, std::uint16_t instances) noexcept 
 }
 
 std::string FailureTable::text(std::uint32_t unit, std::uint32_t type, std::uint16_t instances) {
-    const Unit* const row = find_unit(unit);
-    const std::string_view name = row == nullptr ? "unknown" : row->name;
-    if (type == FAILURE_TYPE_OK) return fmt::format("Cleared: {}, {}", name, list_of(instances));
-    return fmt::format("Injected: {} {}, {}", name, name_of_type(type), list_of(instances));
+    if (type == FAILURE_TYPE_OK) return fmt::format("Cleared: {}, {}", name_of_unit(unit), list_of(instances));
+    return "Injected: " + described(unit, type, instances);
+}
+
+std::vector<std::string> FailureTable::texts() const {
+    std::vector<std::string> all;
+    for (const Entry& entry : std::span(entries_).first(count_))
+        all.push_back(described(entry.unit, entry.type, entry.instances));
+    return all;
 }
 
 Failure FailureTable::first_of(std::uint32_t unit) const noexcept {

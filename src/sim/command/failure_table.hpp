@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "flight/orders.hpp"
 #include "flight/physics/failures.hpp"
@@ -31,6 +32,8 @@ public:
 
     // The text that PX4 sends: "Injected: motor off, instances 1,3".
     [[nodiscard]] static std::string text(std::uint32_t unit, std::uint32_t type, std::uint16_t instances);
+    // Each pair: "motor off, instances 1,3".
+    [[nodiscard]] std::vector<std::string> texts() const;
     // Of sensors and batteries, a vehicle has the first instance only.
     [[nodiscard]] flight::Failures failures() const noexcept;
 

@@ -54,7 +54,7 @@ void HilPort::begin(LinkId link, std::string_view name) {
     link_ = link;
     peer_ = short_name(name);
     came_ = mono_now();
-    is_stranger_ = said_silent_ = said_lost_ = said_back_ = said_double_ = false;
+    is_stranger_ = said_silent_ = said_lost_ = said_back_ = said_double_ = said_not_finite_ = false;
     pair_.begin(came_);
     say(LogLevel::info, fmt::format("{} is there", peer_));
     note_state();
@@ -115,7 +115,11 @@ void HilPort::step(MonoTime now) {
         return;
     }
     fail_due();
+    const auto not_finite = pair_.counters().not_finite;
     for (const auto& frame : pair_.step(now)) links_.send(*link_, frame);
+    if (pair_.counters().not_finite != not_finite && !std::exchange(said_not_finite_, true))
+        say(LogLevel::warning,
+            "the vehicle's motion became infinite, so it is back at its start; check its body, mass, pushes and wind");
     if (pair_.lock_step().state() != state_) note_state();
     own_times_.add(mono_now() - now);
 }
@@ -182,11 +186,14 @@ std::string HilPort::what_it_sent() const {
 
 HilReport HilPort::report() const {
     const auto& lock_step = pair_.lock_step();
+    std::vector<std::string> faults;
+    for (const flight::Fault& fault : pair_.faults()) faults.push_back(flight::text_of(fault));
     return {.port = label_,
             .peer = peer_,
             .status = pair_.status(),
             .steps = lock_step.counters(),
             .counters = pair_.counters(),
+            .faults = faults,
             .speed_reached = lock_step.speed_reached(),
             .answer_median = lock_step.answer_times().at(0.5),
             .answer_p99 = lock_step.answer_times().at(0.99),

@@ -69,7 +69,8 @@ private:
     std::optional<LinkId> link_{};
     std::vector<Newcomer> newcomers_;         // of this turn
     hil::State state_ = hil::State::waiting;  // as last reported
-    bool is_stranger_ = false, said_silent_ = false, said_lost_ = false, said_back_ = false, said_double_ = false;
+    bool is_stranger_ = false, said_silent_ = false, said_lost_ = false, said_back_ = false, said_double_ = false,
+         said_not_finite_ = false;
     MonoTime came_{}, blocked_until_{};
     LineBudget lines_;
     hil::StepTimes own_times_;

@@ -33,6 +33,7 @@ std::vector<NamedCount> counts_of_pair(const HilReport& report) {
             {"losses", report.steps.losses, "times that the autopilot stopped answering"},
             {"clamped", report.counters.clamped, "messages with a control beyond its range"},
             {"not_numbers", report.counters.not_numbers, "messages with a control that is no number"},
+            {"not_finite", report.counters.not_finite, "times that the motion was no number: back at its start"},
             {"restarts", report.counters.restarts, "autopilots that came after the first"}};
 }
 
@@ -58,6 +59,7 @@ void append_pair(std::string& text, const HilReport& report) {
                  {"roll_deg", to_decimals(s.roll_deg, 1e2)},
                  {"pitch_deg", to_decimals(s.pitch_deg, 1e2)},
                  {"heading_deg", std::fmod(to_decimals(s.heading_deg, 1e2), 360)},
+                 {"faults", report.faults},
                  {"speed", to_decimals(report.speed_reached, 1e3)},
                  {"answer_median_us", microseconds_in(report.answer_median)},
                  {"answer_p99_us", microseconds_in(report.answer_p99)},

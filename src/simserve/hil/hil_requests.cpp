@@ -7,6 +7,7 @@
 
 #include "control/fault_request.hpp"
 #include "control/json_request.hpp"
+#include "mavloom/base/durations.hpp"
 #include "mavloom/link/snapshot.hpp"
 #include "mavloom/simserve/hil_simulator.hpp"
 #include "simserve/request_values.hpp"
@@ -14,6 +15,8 @@
 #include "simserve/scenario/vehicle_fault.hpp"
 
 namespace mavloom::simserve {
+
+using namespace std::chrono_literals;
 
 namespace {
 
@@ -44,6 +47,22 @@ Report resume_flights(HilSimulator& simulator, const Json& request) {
     return for_each_pair(simulator, request, [](hil::Pair& pair) { pair.resume(mono_now()); });
 }
 
+// How far the request moved each flight. A step that is not finished continues.
+Report report_steps(HilSimulator& simulator, const Json& request, const std::vector<hil::Pair*>& pairs,
+                    const std::vector<flight::FlightTime>& before) {
+    std::string moved;
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+        control::append_line(moved, {{"kind", "step"},
+                                     {"system", pairs[i]->status().system.value},
+                                     {"moved_s", seconds(pairs[i]->lock_step().time() - before[i])}});
+    auto reports = simulator.reports();
+    if (const auto system = *system_at(request))
+        std::erase_if(reports, [&](const HilReport& report) { return report.status.system != *system; });
+    return control::succeeded([moved = std::move(moved), reports = std::move(reports)](std::string& text) {
+        text += moved + json_of(reports);
+    });
+}
+
 Report step_flights(HilSimulator& simulator, const Json& request) {
     constexpr double most_s = 10;
     const auto time = number_at(request, "seconds").value_or(std::nullopt);
@@ -51,10 +70,16 @@ Report step_flights(HilSimulator& simulator, const Json& request) {
         return failed(fmt::format("step needs a time of the flight, up to {} s", most_s));
     const auto pairs = pairs_of(simulator, request);
     if (!pairs) return failed(pairs.error().text);
-    for (const hil::Pair* const pair : *pairs)
+    std::vector<flight::FlightTime> before;
+    for (const hil::Pair* const pair : *pairs) {
         if (!pair->lock_step().is_paused()) return failed("the flight clock runs; pause it first");
-    const auto length = std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(*time));
-    return for_each_pair(simulator, request, [length](hil::Pair& pair) { pair.allow(length); });
+        if (pair->lock_step().state() == hil::State::waiting)
+            return failed(fmt::format("vehicle {} waits for its PX4, so it makes no step", pair->status().system.value));
+        before.push_back(pair->lock_step().time());
+    }
+    // `mavloom ctl` waits for five seconds.
+    simulator.step(*pairs, std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(*time)), 4s);
+    return report_steps(simulator, request, *pairs, before);
 }
 
 Report reset_vehicles(HilSimulator& simulator, const Json& request) {

@@ -59,12 +59,26 @@ SetupResult<void> HilSimulator::add(const flight::VehicleOptions& vehicle, const
 
 void HilSimulator::turn(MonoTime deadline) {
     deadline = std::min({deadline, next_due(), maintain_due_});
-    links_->turn(*this, posted_->empty() ? deadline : MonoTime{});
-    for (const auto& port : ports_) port->settle();
+    exchange(posted_->empty() ? deadline : MonoTime{});
     if (!posted_->empty()) posted_->run_one();
     const MonoTime now = mono_now();
     step_due(now);
     if (now >= maintain_due_) maintain(now);
+}
+
+void HilSimulator::exchange(MonoTime deadline) {
+    links_->turn(*this, deadline);
+    for (const auto& port : ports_) port->settle();
+}
+
+void HilSimulator::step(std::span<hil::Pair* const> pairs, Nanoseconds time, Nanoseconds limit) {
+    constexpr Nanoseconds longest_wait = 10ms;  // an answer that does not come makes nothing due
+    for (hil::Pair* const pair : pairs) pair->allow(time);
+    const auto is_stepping = [&](const hil::Pair* pair) { return pair->lock_step().is_stepping(mono_now()); };
+    for (const MonoTime end = mono_now() + limit; std::ranges::any_of(pairs, is_stepping) && mono_now() < end;) {
+        step_due(mono_now());
+        exchange(std::min(next_due(), mono_now() + longest_wait));
+    }
 }
 
 MonoTime HilSimulator::next_due() const noexcept {

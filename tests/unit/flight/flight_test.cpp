@@ -110,6 +110,39 @@ TEST(Arming, AFailedSensorPreventsIt) {
     EXPECT_EQ(rig.flight.inject_failures({}).result, Result::denied);
 }
 
+// PX4's failure detector and ArduPilot's crash check disarm.
+TEST(CrashTest, AVehicleThatFallsIsDisarmedAndLanded) {
+    for (const Autopilot autopilot : {Autopilot::px4, Autopilot::ardupilot}) {
+        VehicleOptions options = ready;
+        options.autopilot = autopilot;
+        FlightRig rig(options);
+        rig.take_off(10);
+        ASSERT_TRUE(rig.flight.set_fault({FaultPart::motor, FaultKind::off, {1}, 1}).is_accepted());
+        ASSERT_TRUE(rig.run_until([&] { return rig.flight.plant().touches_ground(); }, 10));
+        rig.run(2);
+        EXPECT_FALSE(rig.flight.armed());
+        EXPECT_EQ(rig.flight.landed(), LandedState::on_ground);
+        EXPECT_TRUE(rig.was_said(autopilot == Autopilot::px4 ? "Disarmed by failure detector" : "Crash: Disarming"));
+    }
+}
+
+// No scenario has such a wind, which carries it away as soon as it leaves the ground.
+TEST(InfiniteMotionTest, TheVehicleIsPutBackAtHomeAndReportsItOnce) {
+    VehicleOptions options = ready;
+    options.wind.speed_m_s = std::numeric_limits<double>::infinity();
+    FlightRig rig(options);
+    for (unsigned flight = 1; flight < 3; ++flight) {
+        ASSERT_TRUE(rig.flight.take_off({.altitude = rig.flight.ground_altitude() + 5}).is_accepted());
+        ASSERT_TRUE(rig.arm().is_accepted());
+        ASSERT_TRUE(rig.run_until([&] { return !rig.flight.armed(); }, 10));
+        EXPECT_GE(rig.flight.put_backs(), flight);
+        EXPECT_TRUE(rig.place().allFinite());
+        EXPECT_LT(rig.place().norm(), 1);
+        EXPECT_EQ(rig.flight.landed(), LandedState::on_ground);
+    }
+    EXPECT_EQ(std::ranges::count(rig.texts, "Motion became infinite: back at home, check body and wind"), 1);
+}
+
 // Of three motors, two on one side make it tumble.
 TEST(Faults, WithAMotorLessAQuadFalls) {
     FlightRig rig(ready);

@@ -52,6 +52,31 @@ TEST_F(PairTest, EachGroupOfSensorsHasItsOwnRateAndAllBits) {
     EXPECT_EQ(fixes, 100);
 }
 
+// 125 / 50 is not a whole number of steps, and neither is 125 / 10.
+TEST_F(PairTest, RatesAreExactAlsoBetweenSteps) {
+    options.rates.imu_hz = 125;
+    begin();
+    int magnetometer = 0, barometer = 0, fixes = 0;
+    for (const Step& step : fly(1250)) {
+        magnetometer += (step.sensor.fields_updated & magnetic) != 0 ? 1 : 0;
+        barometer += (step.sensor.fields_updated & pressure) != 0 ? 1 : 0;
+        fixes += step.gps ? 1 : 0;
+    }
+    EXPECT_EQ(magnetometer, 500);
+    EXPECT_EQ(barometer, 500);
+    EXPECT_EQ(fixes, 100);
+}
+
+TEST_F(PairTest, AnInfiniteMotionPutsTheVehicleBackAtItsStart) {
+    begin();
+    fly(250, {0.8f, 0.8f, 0.8f, 0.8f});
+    ASSERT_GT(pair->status().height_m, 1);
+    pair->push({.down_m_s = -std::numeric_limits<double>::max()});
+    for (const Step& step : fly(250)) ASSERT_TRUE(std::isfinite(step.sensor.xacc) && std::isfinite(step.sensor.xgyro));
+    EXPECT_GT(pair->counters().not_finite, 0u);
+    EXPECT_EQ(pair->status().height_m, 0);
+}
+
 TEST_F(PairTest, TimesAreThoseOfTheStepsAndGpsHasUtc) {
     begin();
     const auto steps = fly(250);

@@ -72,6 +72,17 @@ def test_a_heartbeat_goes_silent_and_comes_back(sim):
         px4.expect("HEARTBEAT")
 
 
+def test_the_state_names_all_faults_and_all_ok_ends_those_of_clients_too(sim):
+    simulator = sim()
+    with simulator.station() as px4:
+        px4.ready()
+        assert px4.command(420, 101, 1, 2) == 0  # MAV_CMD_INJECT_FAILURE: motor 2 off
+        state = json.loads(simulator.ctl("fail", "gps", "drift", "0", "2.5").splitlines()[0])
+        assert state["faults"] == ["motor off, instances 2", "gps drift 0 2.5"]
+        assert json.loads(simulator.ctl("fail", "all", "ok").splitlines()[0])["faults"] == []
+        assert px4.command(400, 1) == 0
+
+
 def test_sequence_numbers_start_again(sim):
     simulator = sim()
     with simulator.station() as px4:
@@ -128,7 +139,7 @@ def test_faults_of_the_time_line_come_at_their_times(run, tmp_path):
         else:
             heights[at] = message.relative_alt / 1000
     assert heights[24] == pytest.approx(20, abs=0.5) and heights[31] < 1
-    assert battery[34] > 50 and battery[36] <= 3
+    assert battery[34] > 50 and battery[36] <= 5  # it has crashed, and charges at rest
 
 
 @pytest.mark.parametrize("words, text", [

@@ -20,12 +20,29 @@ def holding(hil, stand_in):
 
 def moved_by(simulator, seconds):
     """The state after so much more of a paused flight."""
-    goal = simulator.hil()["steps"] + round(seconds * 250)
-    simulator.ctl("step", f"{seconds * 1000:.0f}ms")
-    harness.wait_for(lambda: simulator.hil()["steps"] >= goal, what="the steps")
-    state = simulator.hil()
-    assert state["steps"] == goal
+    before, steps = simulator.hil(), round(seconds * 250)
+    lines = [json.loads(line) for line in simulator.ctl("step", f"{seconds * 1000:.0f}ms").splitlines()]
+    step, state = [line for line in lines if line.get("kind") in ("step", "hil")]
+    assert step["moved_s"] == pytest.approx(seconds, abs=1e-9)
+    assert state["steps"] - before["steps"] == steps == state["answered"] - before["answered"]
+    assert simulator.hil()["steps"] == state["steps"]
     return state
+
+
+def test_a_step_is_rounded_up_and_reports_it(holding):
+    simulator, _ = holding
+    simulator.ctl("pause")
+    before = simulator.hil()
+    step = json.loads(simulator.ctl("step", "10ms").splitlines()[0])
+    assert step == {"kind": "step", "system": 1, "moved_s": 0.012}
+    assert simulator.hil()["flight_s"] == pytest.approx(before["flight_s"] + 0.012, abs=1e-9)
+
+
+def test_without_an_autopilot_there_is_no_step(hil, run):
+    simulator = hil()
+    simulator.ctl("pause")
+    done = run("ctl", simulator.name, "step", "10ms")
+    assert done.status == 1 and "waits for its PX4" in done.stderr, done
 
 
 def test_a_paused_flight_moves_by_exact_steps(holding):
