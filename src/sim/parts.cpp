@@ -42,8 +42,10 @@ Parts::Parts(const VehicleOptions& given, Sink& sink, Moment moment)
       plan_service(std::make_unique<PlanService>(firmware, flight, radio, *this, options.limits, stepped)),
       log_service(std::make_unique<LogService>(options, firmware, parameters, flight, radio, booted)),
       file_service(std::make_unique<FileService>(options, firmware, parameters, radio, log_service->logs())),
-      event_service(std::make_unique<EventService>(*this)),
-      calibration_service(std::make_unique<CalibrationService>(*this)),
+      event_service(std::make_unique<EventService>(firmware, flight, log_service->logs(),
+                                                   EventTimes{booted, stepped, now}, radio, announcer)),
+      calibration_service(
+          std::make_unique<CalibrationService>(firmware, parameters, flight, radio, *parameter_service, *this)),
       compass_calibration(std::make_unique<CompassCalibration>(*this)),
       other_services(make_other_services(*this)),
       created_(moment) {

@@ -6,8 +6,8 @@
 //   Streams     sends projections of the flight's state when they are due
 //   services    answer clients, by message id; they give orders to Flight
 //
-// Members stand in the order of their dependencies. A service gets references to the parts that it uses. Only what
-// reaches nearly all of them gets all: the commands, the sticks and set-points, the events and the calibrations.
+// Members stand in the order of their dependencies. A service gets references to the parts that it uses. Only
+// two get all: the commands, because together they reach nearly all of them, and the compass calibration.
 #pragma once
 
 #include <array>

@@ -11,8 +11,6 @@
 #include "mavloom/msg/command_long.hpp"
 #include "mavloom/msg/enums/accelcal_vehicle_pos.hpp"
 #include "mavloom/msg/enums/mav_cmd.hpp"
-#include "sim/parts.hpp"
-#include "sim/store/parameter_service.hpp"
 
 namespace mavloom::sim {
 
@@ -61,14 +59,14 @@ Outcome CalibrationService::begin(const Command& command, Moment now) {
     if (cancels) return cancel(now);
     const auto sensor = sensor_of(command);
     if (!sensor) return Result::denied;
-    if (parts_.flight.armed() || parts_.flight.is_calibrating() || is_running()) return Result::temporarily_rejected;
-    const bool is_px4 = parts_.firmware.is_px4();
+    if (flight_.armed() || flight_.is_calibrating() || is_running()) return Result::temporarily_rejected;
+    const bool is_px4 = firmware_.is_px4();
     if (*sensor == Sensor::radio || (!is_px4 && *sensor != Sensor::accel))
         return *sensor == Sensor::mag ? Result::unsupported : Result::accepted;
     client_ = command.from;
     sensor_ = *sensor;
     step_ = 0;
-    parts_.flight.set_calibrating(true);
+    flight_.set_calibrating(true);
     stage_ = Stage::begun;
     next_ = now.flight;
     if (!is_px4) ask_for_position(now);
@@ -79,7 +77,7 @@ Outcome CalibrationService::begin(const Command& command, Moment now) {
 Outcome CalibrationService::cancel(Moment now) {
     if (!is_running()) return Result::accepted;
     stop();
-    if (!parts_.firmware.is_px4()) {
+    if (!firmware_.is_px4()) {
         say("Calibration cancelled");
         return Result::accepted;
     }
@@ -90,7 +88,7 @@ Outcome CalibrationService::cancel(Moment now) {
 
 void CalibrationService::stop() {
     next_ = FlightTime::max();
-    parts_.flight.set_calibrating(false);
+    flight_.set_calibrating(false);
 }
 
 void CalibrationService::reboot() {
@@ -98,14 +96,14 @@ void CalibrationService::reboot() {
 }
 
 void CalibrationService::forget(LinkId link) {
-    if (is_running() && !parts_.firmware.is_px4() && client_.link == link) stop();
+    if (is_running() && !firmware_.is_px4() && client_.link == link) stop();
 }
 
-void CalibrationService::say(std::string_view text) { parts_.on_text(Severity::info, text); }
+void CalibrationService::say(std::string_view text) { observer_.on_text(Severity::info, text); }
 
 void CalibrationService::pump(Moment now) {
     if (now.flight < next_) return;
-    if (!parts_.firmware.is_px4()) return finish_ardupilot(false);
+    if (!firmware_.is_px4()) return finish_ardupilot(false);
     next_ = now.flight + step_interval;
     report_px4(std::exchange(stage_, Stage::steps));
 }
@@ -149,8 +147,8 @@ void CalibrationService::finish_px4() {
 void CalibrationService::store_results() {
     const std::string_view prefix = parameter_prefixes[static_cast<std::size_t>(sensor_)];
     if (prefix.empty()) return;
-    for (ParamIndex i = 0; i < parts_.parameters.size(); ++i)
-        if (parts_.parameters.info(i).name.starts_with(prefix)) parts_.parameter_service->announce(i);
+    for (ParamIndex i = 0; i < parameters_.size(); ++i)
+        if (parameters_.info(i).name.starts_with(prefix)) parameter_service_.announce(i);
 }
 
 // --- ArduPilot
@@ -162,7 +160,7 @@ void CalibrationService::ask_for_position(Moment now) {
 }
 
 bool CalibrationService::confirm(const Client& from, Moment now) {
-    if (!is_running() || parts_.firmware.is_px4() || from != client_) return false;
+    if (!is_running() || firmware_.is_px4() || from != client_) return false;
     if (++step_ < position_names.size()) {
         ask_for_position(now);
     } else {
@@ -173,16 +171,16 @@ bool CalibrationService::confirm(const Client& from, Moment now) {
 
 void CalibrationService::finish_ardupilot(bool successful) {
     stop();
-    if (successful) parts_.flight.require_reboot(unready_accelerometer_calibrated);
+    if (successful) flight_.require_reboot(unready_accelerometer_calibrated);
     say(successful ? "Calibration successful" : "Calibration FAILED");
     send_position(successful ? msg::ACCELCAL_VEHICLE_POS_SUCCESS : msg::ACCELCAL_VEHICLE_POS_FAILED);
 }
 
 void CalibrationService::send_position(std::uint32_t position) {
-    parts_.radio.send(client_.link, msg::CommandLong{.target_system = client_.id.system.value,
-                                                     .target_component = client_.id.component.value,
-                                                     .command = msg::MAV_CMD_ACCELCAL_VEHICLE_POS,
-                                                     .param1 = static_cast<float>(position)});
+    radio_.send(client_.link, msg::CommandLong{.target_system = client_.id.system.value,
+                                               .target_component = client_.id.component.value,
+                                               .command = msg::MAV_CMD_ACCELCAL_VEHICLE_POS,
+                                               .param1 = static_cast<float>(position)});
 }
 
 }  // namespace mavloom::sim

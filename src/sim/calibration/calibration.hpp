@@ -8,16 +8,25 @@
 
 #include <optional>
 
+#include "flight/firmware/firmware.hpp"
+#include "flight/flight.hpp"
 #include "sim/command/commands.hpp"
+#include "sim/radio/radio.hpp"
 #include "sim/service/service.hpp"
+#include "sim/store/parameter_service.hpp"
 
 namespace mavloom::sim {
 
-struct Parts;
-
 class CalibrationService final : public Service {
 public:
-    explicit CalibrationService(Parts& parts) noexcept : parts_(parts) {}
+    CalibrationService(const Firmware& firmware, const Parameters& parameters, Flight& flight, Radio& radio,
+                       ParameterService& parameter_service, FlightObserver& observer) noexcept
+        : firmware_(firmware),
+          parameters_(parameters),
+          flight_(flight),
+          radio_(radio),
+          parameter_service_(parameter_service),
+          observer_(observer) {}
 
     [[nodiscard]] std::span<const MessageId> handled() const noexcept override;
     void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
@@ -50,7 +59,12 @@ private:
     void finish_ardupilot(bool successful);
     void send_position(std::uint32_t position);
 
-    Parts& parts_;
+    const Firmware& firmware_;
+    const Parameters& parameters_;
+    Flight& flight_;
+    Radio& radio_;
+    ParameterService& parameter_service_;
+    FlightObserver& observer_;
     FlightTime next_ = FlightTime::max();  // when the next text is due, or ArduPilot gives up
     Stage stage_ = Stage::begun;           // PX4
     Sensor sensor_{};

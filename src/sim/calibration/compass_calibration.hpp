@@ -18,6 +18,7 @@ struct Parts;
 
 class CompassCalibration final : public Service {
 public:
+    // All parts: it sets parameters, reports them, and boots the vehicle, which only all of them together can do.
     explicit CompassCalibration(Parts& parts) noexcept : parts_(parts) {}
 
     [[nodiscard]] std::span<const MessageId> handled() const noexcept override { return {}; }

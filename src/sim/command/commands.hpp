@@ -57,6 +57,7 @@ struct CommandRow {
 
 class Commands final : public Service {
 public:
+    // All parts: each command reaches one or two of them, and together they reach nearly all.
     explicit Commands(Parts& parts) noexcept : parts_(parts) {}
 
     [[nodiscard]] std::span<const MessageId> handled() const noexcept override;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "mavloom/msg/follow_target.hpp"
 #include "mavloom/msg/manual_control.hpp"
@@ -14,8 +15,6 @@
 #include "mavloom/msg/set_home_position.hpp"
 #include "mavloom/msg/set_position_target_global_int.hpp"
 #include "mavloom/msg/set_position_target_local_ned.hpp"
-#include "sim/command/positions.hpp"
-#include "sim/parts.hpp"
 
 namespace mavloom::sim {
 
@@ -40,8 +39,15 @@ double axis(std::int16_t value) noexcept {
 
 }  // namespace
 
-Controls::Controls(Parts& parts) noexcept
-    : parts_(parts), px4_(parts.flight, parts), ardupilot_(parts.options.kind, parts.flight, parts) {}
+Controls::Controls(const Firmware& firmware, const Parameters& parameters, Flight& flight, const Radio& radio,
+                   FlightObserver& observer, SetOrigin set_origin) noexcept
+    : firmware_(firmware),
+      parameters_(parameters),
+      flight_(flight),
+      radio_(radio),
+      set_origin_(std::move(set_origin)),
+      px4_(flight, observer),
+      ardupilot_(firmware.kind(), flight, observer) {}
 
 std::span<const MessageId> Controls::handled() const noexcept { return control_messages; }
 
@@ -56,7 +62,7 @@ void Controls::receive(const Client& from, MessageId id, ByteView payload, Momen
 
 // Only PX4 takes set-points of actuators.
 void Controls::on_setpoint(MessageId id, ByteView payload, Moment now) {
-    const bool is_px4 = parts_.firmware.is_px4();
+    const bool is_px4 = firmware_.is_px4();
     if (id == SetPositionTargetLocalNed::id)
         return is_px4 ? px4_.on_local_target(payload, now) : ardupilot_.on_local_target(payload);
     if (id == SetPositionTargetGlobalInt::id)
@@ -69,28 +75,27 @@ void Controls::on_setpoint(MessageId id, ByteView payload, Moment now) {
 // --- Sticks
 
 bool Controls::may_steer(const Client& from) const noexcept {
-    const Parameters& parameters = parts_.parameters;
-    if (parts_.firmware.is_px4()) {
-        const double source = parameters.get("COM_RC_IN_MODE", 1);
+    if (firmware_.is_px4()) {
+        const double source = parameters_.get("COM_RC_IN_MODE", 1);
         constexpr double radio_only = 0, off = 4;
         return source != radio_only && source != off;
     }
-    return parameters.get("SYSID_ENFORCE") == 0 || parameters.get("SYSID_MYGCS") == from.id.system.value;
+    return parameters_.get("SYSID_ENFORCE") == 0 || parameters_.get("SYSID_MYGCS") == from.id.system.value;
 }
 
 void Controls::on_manual_control(const Client& from, ByteView payload) {
     const auto m = msg::ManualControl::decode(payload);
-    if ((m.target != 0 && m.target != parts_.radio.system().value) || !may_steer(from)) return;
+    if ((m.target != 0 && m.target != radio_.system().value) || !may_steer(from)) return;
     const Sticks sticks{.pitch = axis(m.x), .roll = axis(m.y), .yaw = axis(m.r), .throttle = axis(m.z)};
     const bool has_no_axis = std::isnan(sticks.pitch) && std::isnan(sticks.roll) && std::isnan(sticks.yaw) &&
                              std::isnan(sticks.throttle);
-    if (!has_no_axis) parts_.flight.on_sticks(sticks);
+    if (!has_no_axis) flight_.on_sticks(sticks);
 }
 
 // UINT16_MAX keeps a channel. 0 gives it back to the remote control; for channels 9 and more, 0 keeps it, too, and
 // UINT16_MAX - 1 gives it back. The simulated remote control stands in its middle.
 void Controls::on_channels(const Client& from, ByteView payload) {
-    if (parts_.firmware.is_px4() || !may_steer(from)) return;
+    if (firmware_.is_px4() || !may_steer(from)) return;
     const auto m = RcChannelsOverride::decode(payload);
     const std::array given{m.chan1_raw,  m.chan2_raw,  m.chan3_raw,  m.chan4_raw,  m.chan5_raw,  m.chan6_raw,
                            m.chan7_raw,  m.chan8_raw,  m.chan9_raw,  m.chan10_raw, m.chan11_raw, m.chan12_raw,
@@ -102,12 +107,12 @@ void Controls::on_channels(const Client& from, ByteView payload) {
         if (given[i] == keep || (is_extended && given[i] == 0)) continue;
         channels_[i] = is_extended && given[i] == give_back ? std::uint16_t{0} : given[i];
     }
-    parts_.flight.on_sticks(sticks_of_channels());
+    flight_.on_sticks(sticks_of_channels());
 }
 
 // -1 to 1; nan: the channel is not overridden. The parameter `map` holds the channel's number.
 double Controls::channel(std::string_view map) const noexcept {
-    const double number = parts_.parameters.get(map, 1);
+    const double number = parameters_.get(map, 1);
     const std::uint16_t pulse = channels_[static_cast<std::size_t>(std::clamp(number, 1.0, double{channel_count})) - 1];
     return pulse == 0 ? nan : (pulse - 1500.0) / 500;
 }
@@ -124,19 +129,19 @@ Sticks Controls::sticks_of_channels() const noexcept {
 
 void Controls::on_follow_target(ByteView payload) {
     const auto m = FollowTarget::decode(payload);
-    parts_.flight.on_target({from_degrees_e7(m.lat), from_degrees_e7(m.lon), double{m.alt}},
-                            {double{m.vel[0]}, double{m.vel[1]}, double{m.vel[2]}});
+    flight_.on_target({from_degrees_e7(m.lat), from_degrees_e7(m.lon), double{m.alt}},
+                      {double{m.vel[0]}, double{m.vel[1]}, double{m.vel[2]}});
 }
 
 void Controls::on_origin(ByteView payload) {
     const auto m = SetGpsGlobalOrigin::decode(payload);
-    (void)set_global_origin(parts_, {from_degrees_e7(m.latitude), from_degrees_e7(m.longitude), m.altitude * 1e-3});
+    set_origin_({from_degrees_e7(m.latitude), from_degrees_e7(m.longitude), m.altitude * 1e-3});
 }
 
 void Controls::on_home(ByteView payload) {
     const auto m = SetHomePosition::decode(payload);
     const GeoPoint home{from_degrees_e7(m.latitude), from_degrees_e7(m.longitude), m.altitude * 1e-3};
-    if (!parts_.firmware.is_px4()) (void)parts_.flight.set_home(home, nan);
+    if (!firmware_.is_px4()) (void)flight_.set_home(home, nan);
 }
 
 }  // namespace mavloom::sim

@@ -4,20 +4,25 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string_view>
 
+#include "flight/firmware/firmware.hpp"
+#include "flight/flight.hpp"
 #include "flight/orders.hpp"
 #include "sim/control/ardupilot_setpoints.hpp"
 #include "sim/control/px4_setpoints.hpp"
+#include "sim/radio/radio.hpp"
 #include "sim/service/service.hpp"
 
 namespace mavloom::sim {
 
-struct Parts;
-
 class Controls final : public Service {
 public:
-    explicit Controls(Parts& parts) noexcept;
+    // Moves the origin of the local frame, and reports it.
+    using SetOrigin = std::function<void(const GeoPoint& origin)>;
+    Controls(const Firmware& firmware, const Parameters& parameters, Flight& flight, const Radio& radio,
+             FlightObserver& observer, SetOrigin set_origin) noexcept;
 
     [[nodiscard]] std::span<const MessageId> handled() const noexcept override;
     void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
@@ -37,7 +42,11 @@ private:
     [[nodiscard]] Sticks sticks_of_channels() const noexcept;
     [[nodiscard]] double channel(std::string_view map) const noexcept;
 
-    Parts& parts_;
+    const Firmware& firmware_;
+    const Parameters& parameters_;
+    Flight& flight_;
+    const Radio& radio_;
+    SetOrigin set_origin_;
     Px4Setpoints px4_;
     ArdupilotSetpoints ardupilot_;
     static constexpr std::size_t channel_count = 18;

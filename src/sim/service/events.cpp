@@ -11,9 +11,7 @@
 #include "mavloom/msg/request_event.hpp"
 #include "mavloom/msg/response_event_error.hpp"
 #include "sim/metadata/event_catalog.hpp"
-#include "sim/parts.hpp"
 #include "sim/store/calendar.hpp"
-#include "sim/store/log_service.hpp"
 
 namespace mavloom::sim {
 
@@ -64,10 +62,14 @@ private:
 
 }  // namespace
 
-EventService::EventService(Parts& parts) noexcept : parts_(parts) { restart(); }
+EventService::EventService(const Firmware& firmware, const Flight& flight, const RecordedLogs& logs,
+                           const EventTimes& times, Radio& radio, Announcer& announcer) noexcept
+    : firmware_(firmware), flight_(flight), logs_(logs), times_(times), radio_(radio), announcer_(announcer) {
+    restart();
+}
 
 void EventService::restart() {
-    booted_ = may_report_ = parts_.booted;
+    booted_ = may_report_ = times_.booted;
     next_sequence_ = booted_ + first_sequence;
     next_check_ = booted_ + first_check;
     sequence_ = count_ = 0;
@@ -79,21 +81,21 @@ void EventService::restart() {
 std::span<const MessageId> EventService::handled() const noexcept { return event_ids; }
 
 FlightTime EventService::wakes_at() const noexcept {
-    return parts_.firmware.is_px4() ? std::min(next_sequence_, next_check_) : FlightTime::max();
+    return firmware_.is_px4() ? std::min(next_sequence_, next_check_) : FlightTime::max();
 }
 
 void EventService::pump(Moment now) {
-    if (booted_ != parts_.booted) restart();
+    if (booted_ != times_.booted) restart();
     if (now.flight >= next_sequence_) {
         if (!std::exchange(has_announced_log_, true)) announce_log();
-        parts_.radio.broadcast(
+        radio_.broadcast(
             CurrentEventSequence{.sequence = sequence_, .flags = static_cast<std::uint8_t>(std::exchange(reset_, 0))});
         next_sequence_ = now.flight + sequence_interval;
     }
     if (now.flight < next_check_) return;
     next_check_ = now.flight + check_interval;
     if (now.flight < may_report_) return;
-    if (const HealthReport report = health_report(parts_.flight, parts_.announcer.has_audience()); report != reported_)
+    if (const HealthReport report = health_report(flight_, announcer_.has_audience()); report != reported_)
         send_report(report, now.flight);
 }
 
@@ -112,16 +114,16 @@ void EventService::send_packed(std::uint32_t id, const std::array<std::uint8_t, 
     next_slot_ = (next_slot_ + 1) % kept;
     count_ = static_cast<std::uint16_t>(std::min<std::size_t>(kept, count_ + 1u));
     event = {.id_ = id,
-             .event_time_boot_ms = static_cast<std::uint32_t>((parts_.stepped - parts_.booted) /
+             .event_time_boot_ms = static_cast<std::uint32_t>((times_.stepped - times_.booted) /
                                                               std::chrono::milliseconds{1}),
              .sequence = ++sequence_,
              .log_levels = info->log_levels,
              .arguments = arguments};
-    parts_.radio.broadcast(event);
+    radio_.broadcast(event);
 }
 
 bool EventService::report_text(std::string_view text) {
-    if (!parts_.firmware.is_px4()) return false;
+    if (!firmware_.is_px4()) return false;
     for (const EventText& known : event_texts()) {
         const auto numbers = match(text, known.text);
         const EventInfo* const info = numbers ? find_event(known.id) : nullptr;
@@ -145,8 +147,7 @@ bool EventService::report_text(std::string_view text) {
 }
 
 void EventService::report_health() {
-    if (parts_.firmware.is_px4())
-        send_report(health_report(parts_.flight, parts_.announcer.has_audience()), parts_.now.flight);
+    if (firmware_.is_px4()) send_report(health_report(flight_, announcer_.has_audience()), times_.now.flight);
 }
 
 void EventService::send_report(const HealthReport& report, FlightTime now) {
@@ -171,37 +172,36 @@ void EventService::send_problem(const HealthProblem& problem) {
 
 // The newest log that the vehicle brings along begins when the vehicle is created.
 void EventService::announce_log() {
-    const RecordedLogs& logs = parts_.log_service->logs();
-    if (logs.brought_along() == 0) return;
-    const auto newest = static_cast<std::uint16_t>(logs.brought_along() - 1);
-    if (const WallTime began = logs.began_at(newest); began != WallTime{}) {
+    if (logs_.brought_along() == 0) return;
+    const auto newest = static_cast<std::uint16_t>(logs_.brought_along() - 1);
+    if (const WallTime began = logs_.began_at(newest); began != WallTime{}) {
         const Calendar at = calendar_of(began);
         const auto byte = [](unsigned part) { return static_cast<std::uint8_t>(part); };
         send(event_id::log_opened, static_cast<std::uint16_t>(at.year), byte(at.month), byte(at.day), byte(at.hour),
              byte(at.minute), byte(at.second));
     }
-    parts_.announcer.say(Severity::info, "[logger] ./" + logs.path(newest) + '\t', parts_.now.flight);
+    announcer_.say(Severity::info, "[logger] ./" + logs_.path(newest) + '\t', times_.now.flight);
 }
 
 void EventService::receive(const Client& from, MessageId /*id*/, ByteView payload, Moment /*now*/) {
-    if (!parts_.firmware.is_px4()) return;
+    if (!firmware_.is_px4()) return;
     const auto request = RequestEvent::decode(payload);
     const auto oldest = static_cast<std::uint16_t>(sequence_ - count_ + 1);
     // Distances from the newest event, backwards; sequence numbers wrap.
     const auto age = [&](std::uint16_t sequence) { return static_cast<std::uint16_t>(sequence_ - sequence); };
     if (age(request.first_sequence) >= count_)
-        parts_.radio.send(from.link, ResponseEventError{.target_system = from.id.system.value,
-                                                        .target_component = from.id.component.value,
-                                                        .sequence = request.first_sequence,
-                                                        .sequence_oldest_available = oldest,
-                                                        .reason = MAV_EVENT_ERROR_REASON_UNAVAILABLE});
+        radio_.send(from.link, ResponseEventError{.target_system = from.id.system.value,
+                                                  .target_component = from.id.component.value,
+                                                  .sequence = request.first_sequence,
+                                                  .sequence_oldest_available = oldest,
+                                                  .reason = MAV_EVENT_ERROR_REASON_UNAVAILABLE});
     const auto asked = static_cast<std::uint16_t>(request.last_sequence - request.first_sequence);
     for (std::uint16_t i = 0; i < count_; ++i) {
         Event event = past_[(next_slot_ + kept - count_ + i) % kept];
         if (static_cast<std::uint16_t>(event.sequence - request.first_sequence) > asked) continue;
         event.destination_system = from.id.system.value;
         event.destination_component = from.id.component.value;
-        parts_.radio.send(from.link, event);
+        radio_.send(from.link, event);
     }
 }
 

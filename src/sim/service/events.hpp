@@ -12,18 +12,29 @@
 #include <string_view>
 #include <vector>
 
+#include "flight/firmware/firmware.hpp"
+#include "flight/flight.hpp"
 #include "mavloom/msg/event.hpp"
+#include "sim/radio/radio.hpp"
+#include "sim/service/announcer.hpp"
 #include "sim/service/health_report.hpp"
 #include "sim/service/service.hpp"
+#include "sim/store/recorded_logs.hpp"
 
 namespace mavloom::sim {
 
 struct EventInfo;
-struct Parts;
+
+// Of the vehicle; they change.
+struct EventTimes {
+    const FlightTime &booted, &stepped;
+    const Moment& now;
+};
 
 class EventService final : public Service {
 public:
-    explicit EventService(Parts& parts) noexcept;
+    EventService(const Firmware& firmware, const Flight& flight, const RecordedLogs& logs, const EventTimes& times,
+                 Radio& radio, Announcer& announcer) noexcept;
 
     [[nodiscard]] std::span<const MessageId> handled() const noexcept override;
     void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
@@ -47,7 +58,12 @@ private:
 
     static constexpr std::size_t kept = 20;
 
-    Parts& parts_;
+    const Firmware& firmware_;
+    const Flight& flight_;
+    const RecordedLogs& logs_;
+    const EventTimes times_;
+    Radio& radio_;
+    Announcer& announcer_;
     std::array<msg::Event, kept> past_{};  // a ring
     std::size_t next_slot_ = 0;            // of `past_`
     std::uint16_t count_ = 0;              // events in `past_`
