@@ -63,6 +63,12 @@ trap 'end; exit 143' TERM
 
 "$mavloom" sim --name "$name" --hil "px4=tcpin://127.0.0.1:$((4560 + number))" --system $((1 + number)) "$@" &
 simulator=$!
+# PX4 starts once the simulator answers. If an option is wrong, the simulator has ended, and its message stands alone.
+for _ in {1..100}; do
+  kill -0 "$simulator" 2>/dev/null || { wait "$simulator"; exit; }
+  if "$mavloom" ctl "$name" state >/dev/null 2>&1; then break; fi
+  sleep 0.05
+done
 # The router's heartbeat is the first frame that PX4 hears, so PX4 answers the router from then on.
 "$mavloom" route --name "px4-$number" --heartbeat 255/191 \
   "udpout://127.0.0.1:$((18570 + number))?name=px4&bind=127.0.0.1:$((5057 + number))" \

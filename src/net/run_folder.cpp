@@ -60,7 +60,9 @@ SetupResult<std::filesystem::path> run_path(std::string_view name, std::string_v
             fmt::format("no folder for the {}: {}={} cannot be created or written", what, run_variable, only));
     return setup_error(
         SetupCode::permission,
-        fmt::format("no folder for the {}: /run/mavloom cannot be created, and XDG_RUNTIME_DIR is not set", what));
+        fmt::format("no folder for the {}: neither /run/mavloom nor $XDG_RUNTIME_DIR/mavloom can be written; set {} to "
+                    "a folder of yours",
+                    what, run_variable));
 }
 
 std::optional<uid_t> run_folder_owner() {

@@ -101,10 +101,10 @@ def test_all_ends_when_px4_ends(example):
     assert script.wait().status == 137
 
 
-def test_px4_ends_when_the_simulator_cannot_start(example):
+def test_px4_does_not_start_when_the_simulator_cannot(example):
     script, instance, _ = example(PX4_SIM_SPEED_FACTOR="fast")
     done = script.wait()
-    assert done.status != 0
+    assert done.status == 3 and "PX4_SIM_SPEED_FACTOR" in done.stderr and "stand_in" not in done.stdout + done.stderr
     assert is_free(18570 + instance, socket.SOCK_DGRAM)
 
 
