@@ -21,6 +21,7 @@ LockStep::LockStep(Nanoseconds step, double speed, bool has_own_clock) noexcept
 void LockStep::begin(MonoTime now) noexcept {
     state_ = State::booting;
     began_ = time_;
+    newest_answer_ = {};
     is_answered_ = true;
     is_measuring_ = false;
     in_row_ = 0;
@@ -89,8 +90,10 @@ Answer LockStep::answer(std::uint64_t time_us, bool knows_lock_step, MonoTime no
         return Answer::unasked;
     }
     count(answer);
+    if (answer != Answer::in_time && answer != Answer::late) return answer;
+    newest_answer_ = time_us;
     if (answer == Answer::in_time) accept(now);
-    if (state_ == State::lost && (answer == Answer::in_time || answer == Answer::late)) {
+    if (state_ == State::lost) {
         state_ = State::lock_step;
         in_row_ = 0;
     }
@@ -103,11 +106,12 @@ void LockStep::count(Answer answer) noexcept {
     counters_.foreign += answer == Answer::foreign ? 1 : 0;
 }
 
+// An autopilot answers in the order of the steps.
 Answer LockStep::judge(std::uint64_t time_us) const noexcept {
     const std::uint64_t last = wire_time(time_);
     if (time_us > last || time_us <= wire_time(began_)) return Answer::foreign;
-    if (time_us < last) return Answer::late;
-    return is_answered_ ? Answer::repeated : Answer::in_time;
+    if (time_us <= newest_answer_) return Answer::repeated;
+    return time_us < last ? Answer::late : Answer::in_time;
 }
 
 // One that does not know lock-step may still answer each step.

@@ -43,7 +43,7 @@ inline constexpr std::string_view state_names[] = {"waiting", "booting", "lock-s
 enum class Answer : std::uint8_t {
     in_time,   // to the last step
     late,      // to an earlier step
-    repeated,  // the last step had its answer
+    repeated,  // this step, or one after it, had its answer
     foreign,   // to no step: the time is not one of ours
     unasked,   // from an autopilot with a clock of its own
 };
@@ -109,7 +109,8 @@ private:
     const double speed_;
     const bool has_own_clock_;
     State state_ = State::waiting;
-    FlightTime time_{}, began_{};  // began_: the last step before the autopilot came
+    FlightTime time_{}, began_{};      // began_: the last step before the autopilot came
+    std::uint64_t newest_answer_ = 0;  // the time of the newest step that was answered
     bool is_answered_ = true, is_paused_ = false, is_measuring_ = false, flies_by_own_clock_ = false;
     MonoTime sent_{}, due_{}, heard_{};
     unsigned in_row_ = 0;

@@ -18,7 +18,6 @@ public:
         ++counts_[bucket_of(time.count() < 0 ? 0 : static_cast<std::uint64_t>(time.count()))];
         ++total_;
     }
-    [[nodiscard]] std::uint64_t total() const noexcept { return total_; }
     // The upper bound of the bucket in which the quantile lies; 0 if nothing was added. `quantile` is 0 to 1.
     [[nodiscard]] Nanoseconds at(double quantile) const noexcept {
         if (total_ == 0) return {};
@@ -45,7 +44,7 @@ private:
         return Nanoseconds{static_cast<std::int64_t>((bucket % parts + parts + 1) << exponent) - 1};
     }
 
-    std::array<std::uint32_t, (most_bits - part_bits + 1) * parts> counts_{};
+    std::array<std::uint64_t, (most_bits - part_bits + 1) * parts> counts_{};
     std::uint64_t total_ = 0;
 };
 

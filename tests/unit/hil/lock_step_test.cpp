@@ -156,12 +156,22 @@ TEST_F(LockStepTest, RepeatedAnswersBeginNoStep) {
     const FlightTime time = step();
     EXPECT_EQ(answer(time), Answer::in_time);
     EXPECT_EQ(steps_now(5), 1);  // which waits for its answer
-    EXPECT_EQ(answer(time), Answer::late);
+    EXPECT_EQ(answer(time), Answer::repeated);
     EXPECT_EQ(steps_now(5), 0);
     EXPECT_EQ(answer(clock.time()), Answer::in_time);
     EXPECT_EQ(answer(clock.time()), Answer::repeated);
     EXPECT_EQ(steps_now(5), 1);
-    EXPECT_EQ(clock.counters().repeated, 1u);
+    EXPECT_EQ(clock.counters().repeated, 2u);
+    EXPECT_EQ(clock.counters().late, 0u);
+}
+
+TEST_F(LockStepTest, RepeatedAnswersDoNotEndALoss) {
+    boot();
+    const FlightTime time = step();
+    EXPECT_EQ(answer(time), Answer::in_time);
+    while (clock.state() != State::lost) step();
+    EXPECT_EQ(answer(time), Answer::repeated);
+    EXPECT_EQ(clock.state(), State::lost);
 }
 
 TEST_F(LockStepTest, AnswersWithTimesBeyondOursAreNoAnswers) {
@@ -172,7 +182,7 @@ TEST_F(LockStepTest, AnswersWithTimesBeyondOursAreNoAnswers) {
     EXPECT_EQ(steps_now(5), 0);
     EXPECT_EQ(answer(time), Answer::in_time);
     EXPECT_EQ(steps_now(5), 1);
-    EXPECT_EQ(answer(time), Answer::late);
+    EXPECT_EQ(answer(time), Answer::repeated);
     EXPECT_EQ(clock.counters().foreign, 3u);
 }
 
@@ -260,7 +270,6 @@ TEST(StepTimesTest, QuantilesAreTheUpperBoundsOfTheirBuckets) {
     }
     times.add(1h);
     EXPECT_GT(times.at(1), 10s);
-    EXPECT_EQ(times.total(), 1001u);
 }
 
 }  // namespace
