@@ -47,8 +47,8 @@ bool SensedVehicle::step(const flight::Outputs& outputs) {
     wind_.step();
     around_.wind = wind_.velocity();
     around_.air_density = flight::density_at(frame_.origin().altitude - truth().position.z());
-    if (push_left_ <= 0) around_.push = around_.turn = Vector3::Zero();
-    push_left_ -= step_s_;
+    if (push_left_ == 0) around_.push = around_.turn = Vector3::Zero();
+    else --push_left_;
     flight::Outputs working = outputs;
     flight::stop_failed_motors(working, plant_->channels(), sensors_.failures());
     plant_->step(working, around_, step_s_);
@@ -71,10 +71,13 @@ void SensedVehicle::fail(const flight::Fault& fault) {
     sensors_.set_deceptions(faults_.deceptions());
 }
 
+// The rest of an earlier push is spread anew.
 void SensedVehicle::push(const Vector3& velocity, const Vector3& rates) {
-    around_.push = velocity / push_time;
-    around_.turn = rates / push_time;
-    push_left_ = push_time;
+    const double left_s = push_left_ * step_s_;
+    push_left_ = static_cast<unsigned>(push_time / step_s_);
+    const double time_s = push_left_ * step_s_;
+    around_.push = (around_.push * left_s + velocity) / time_s;
+    around_.turn = (around_.turn * left_s + rates) / time_s;
 }
 
 void SensedVehicle::set_wind(const flight::Wind& wind) {

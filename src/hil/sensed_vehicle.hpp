@@ -45,7 +45,6 @@ public:
     // Velocity relative to the air, m/s in the body frame.
     [[nodiscard]] Vector3 air_velocity() const { return truth().attitude.conjugate() * plant_->air_velocity(); }
     [[nodiscard]] double air_density() const noexcept { return around_.air_density; }  // kg/m^3
-    [[nodiscard]] double step_s() const noexcept { return step_s_; }
 
 private:
     void sense();
@@ -59,7 +58,7 @@ private:
     flight::WindField wind_;
     flight::LocalFrame frame_;
     flight::Surroundings around_;
-    double push_left_ = 0;  // s
+    unsigned push_left_ = 0;  // steps
 };
 
 }  // namespace mavloom::hil

@@ -263,6 +263,32 @@ TEST_F(PairTest, APushMovesItByItsVelocity) {
     EXPECT_NEAR(last.sensor.zgyro * 180 / 3.14159265, 90, 1);
 }
 
+TEST_F(PairTest, APushThatFollowsAnotherAddsToIt) {
+    options.vehicle.has_noise = false;
+    options.vehicle.body.copter.drag = 0;
+    begin();
+    fly(500, four(0.6f));
+    const double before = pair->status().north_m_s;
+    pair->push({.north_m_s = 3});
+    fly(50, four(0.5f));
+    pair->push({.yaw_deg_s = 90});
+    const Step last = fly(125, four(0.5f)).back();
+    EXPECT_NEAR(pair->status().north_m_s - before, 3, 0.05);
+    EXPECT_NEAR(last.sensor.zgyro * 180 / 3.14159265, 90, 1);
+}
+
+TEST_F(PairTest, APushIsWholeWithStepsThatDoNotDivideItsTime) {
+    options.vehicle.has_noise = false;
+    options.vehicle.body.copter.drag = 0;
+    options.rates.imu_hz = 125;
+    begin();
+    fly(250, four(0.6f));
+    const double before = pair->status().north_m_s;
+    pair->push({.north_m_s = 50});
+    fly(125, four(0.5f));
+    EXPECT_NEAR(pair->status().north_m_s - before, 50, 0.1);
+}
+
 TEST_F(PairTest, MoreMassNeedsMoreThrust) {
     options.vehicle.has_noise = false;
     begin();
