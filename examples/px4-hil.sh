@@ -38,6 +38,8 @@ fi
 number=${PX4_INSTANCE:-0} name=sim${PX4_INSTANCE:-} gcs=${GCS:-127.0.0.1:$((14550 + ${PX4_INSTANCE:-0}))}
 export PX4_SIM_MODEL=${PX4_SIM_MODEL:-none_iris}
 work=${PX4_WORK:-$(mktemp -d)}
+mkdir -p "$work"
+work=$(cd "$work" && pwd)
 
 stop() { # PID: asks it to end, and ends it after a second
   kill -TERM "$1" 2>/dev/null || return 0
@@ -74,7 +76,6 @@ done
   "udpout://127.0.0.1:$((18570 + number))?name=px4&bind=127.0.0.1:$((5057 + number))" \
   "udpout://$gcs?name=gcs&heartbeat=false" "tcpin://127.0.0.1:$((5760 + number))?name=sdk" &
 router=$!
-mkdir -p "$work"
 (cd "$work" && exec "$build/bin/px4" -d -i "$number" -w "$work" "$build/etc") &
 px4=$!
 wait -n # all three normally run until a signal

@@ -242,9 +242,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("-d", action="store_true", help="ignored")
     parser.add_argument("-i", type=int, default=0, help="instance: port 4560 + i, system id 1 + i")
-    parser.add_argument("-w", help="ignored")
+    parser.add_argument("-w", help="the folder to work in")
     parser.add_argument("folders", nargs="*", help="ignored")
     given = parser.parse_args()
+    if given.w:
+        os.chdir(given.w)
     stand_in = StandIn(given.i, Options(**json.loads(os.environ.get("PX4_STAND_IN", "{}"))))
     stand_in.connect()
     stand_in.run()

@@ -109,7 +109,7 @@ def test_px4_does_not_start_when_the_simulator_cannot(example):
 
 
 def test_the_work_folder_stays_where_it_is_asked_for(example, tmp_path):
-    script, _, _ = example(PX4_WORK=str(tmp_path / "work"))
+    script, _, _ = example(PX4_WORK=os.path.relpath(tmp_path / "work"))
     script.wait_output('"stand_in": "first answer"')
     os.killpg(script.pid, signal.SIGINT)
     script.wait()
