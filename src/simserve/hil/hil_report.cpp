@@ -72,7 +72,8 @@ std::string metrics_of(const std::vector<HilReport>& reports) {
     MetricsText metrics;
     for (const auto& report : reports)
         metrics.add("hil", counts_of_pair(report),
-                    MetricsText::label("system", fmt::format("{}", report.status.system.value)));
+                    MetricsText::label("port", report.port) + "," +
+                        MetricsText::label("system", fmt::format("{}", report.status.system.value)));
     return metrics.text();
 }
 
