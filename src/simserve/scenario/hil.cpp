@@ -29,12 +29,10 @@ constexpr std::string_view usual_px4_port = "tcpin://127.0.0.1:4560";
 tl::unexpected<SetupError> hil_error(std::string text) { return setup_error(SetupCode::usage, std::move(text)); }
 
 SetupResult<Endpoint> checked(Endpoint endpoint) {
-    constexpr std::array schemes{Scheme::tcpin, Scheme::serial, Scheme::udpout};
+    constexpr std::array schemes{Scheme::tcpin, Scheme::serial};
     if (std::ranges::find(schemes, endpoint.scheme) == schemes.end())
-        return hil_error(
-            fmt::format("{}: PX4 connects to a tcpin:// address, or waits at a udpout:// address; flight "
-                        "controllers are at a serial:// device",
-                        endpoint.label()));
+        return hil_error(fmt::format(
+            "{}: PX4 connects to a tcpin:// address; flight controllers are at a serial:// device", endpoint.label()));
     if (auto good = endpoint::check_link(endpoint, endpoint::RoutingOptions::refused); !good)
         return tl::unexpected(std::move(good.error()));
     return endpoint;
@@ -200,8 +198,6 @@ constexpr std::array keys_of_px4{
     OwnKey{sim_section, "record_input", "clients talk to PX4"},
     OwnKey{sim_section, "replay_input", "clients talk to PX4"},
     OwnKey{sim_section, "ring", it_sends},
-    OwnKey{sim_section, "record_input", it_sends},
-    OwnKey{sim_section, "replay_input", it_sends},
     OwnKey{web_section, "listen", it_sends},
     OwnKey{vehicle_section, "autopilot", "the autopilot is PX4"},
     OwnKey{vehicle_section, "motion", flies_all},

@@ -87,7 +87,9 @@ TEST(HilScenario, RefusesAutopilotsEndpointsAndRatesThatCannotBe) {
     EXPECT_THAT(error_in("[sim]\nhil = \"px5\"\n"), HasSubstr("did you mean 'px4'?"));
     EXPECT_THAT(error_in("[sim]\nhil = \"ardupilot\"\n"), HasSubstr("is not px4 or px4=ENDPOINT"));
     EXPECT_THAT(error_in("[sim]\nhil = \"px4=wsin://127.0.0.1:4560\"\n"), HasSubstr("tcpin://"));
-    EXPECT_THAT(error_in("[sim]\nhil = \"px4=udpin://127.0.0.1:4560\"\n"), HasSubstr("udpout://"));
+    for (const auto* const scheme : {"udpin", "udpout", "tcpout"})
+        EXPECT_THAT(error_in("[sim]\nhil = \"px4=" + std::string(scheme) + "://127.0.0.1:4560\"\n"),
+                    HasSubstr("PX4 connects to a tcpin:// address"));
     EXPECT_THAT(error_in("[sim]\nhil = \"px4=tcpin://127.0.0.1:65534\"\n[[vehicle]]\ncount = 3\n"),
                 HasSubstr("there are not 3 ports"));
     EXPECT_THAT(error_in("[sim]\nhil = \"px4\"\nhil_sensors = \"imu:300\"\n"), HasSubstr("whole microseconds"));
