@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What both programs of `bench hil` share: a TCP connection on loopback that carries MAVLink.
+// A TCP connection on loopback that carries MAVLink, for both programs of `bench hil`.
 #pragma once
 
 #include <all/mavlink.h>

@@ -152,15 +152,14 @@ constexpr auto names_of_faults = [] {
     return names;
 }();
 
-// Where the figures come from: docs/guide/faults.md.
+// docs/guide/faults.md has what they stand for, and where the figures come from.
 constexpr std::array presets{
-    FaultPreset{"sik", "delay:66ms~64ms,rate:2400/2k",
-                "SiK telemetry radio, 64 kbit/s in the air with error correction"},
-    FaultPreset{"sik-edge", "loss:0.2/6,delay:66ms~64ms,rate:2400/2k", "the same radio at the edge of its range"},
-    FaultPreset{"lte", "loss:0.005,delay:50ms~20ms,stall:1s/60s", "mobile network"},
-    FaultPreset{"lte-bad", "loss:0.03/4,delay:150ms~80ms,stall:2s/20s,rate:16k/64k", "mobile network, high or far out"},
-    FaultPreset{"satcom", "delay:40s~20s,rate:20/512", "short messages by satellite"},
-    FaultPreset{"wifi", "loss:0.01/5,delay:11ms~9ms", "wireless network, not far from its edge"},
+    FaultPreset{"sik", "delay:66ms~64ms,rate:2400/2k"},
+    FaultPreset{"sik-edge", "loss:0.2/6,delay:66ms~64ms,rate:2400/2k"},
+    FaultPreset{"lte", "loss:0.005,delay:50ms~20ms,stall:1s/60s"},
+    FaultPreset{"lte-bad", "loss:0.03/4,delay:150ms~80ms,stall:2s/20s,rate:16k/64k"},
+    FaultPreset{"satcom", "delay:40s~20s,rate:20/512"},
+    FaultPreset{"wifi", "loss:0.01/5,delay:11ms~9ms"},
 };
 
 // ---- the terms ------------------------------------------------------------------------------------------------------
@@ -231,8 +230,6 @@ bool Faults::any() const noexcept {
 }
 
 std::span<const FaultPreset> fault_presets() noexcept { return presets; }
-
-std::span<const std::string_view> fault_names() noexcept { return names_of_faults; }
 
 SetupResult<Faults> parse_faults(std::string_view text) {
     if (text == "off") return Faults{};

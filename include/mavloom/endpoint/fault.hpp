@@ -41,11 +41,9 @@ struct Faults {
 };
 
 struct FaultPreset {
-    std::string_view name, faults, help;
+    std::string_view name, faults;
 };
 [[nodiscard]] std::span<const FaultPreset> fault_presets() noexcept;
-// The names of the faults, in the order in which they happen.
-[[nodiscard]] std::span<const std::string_view> fault_names() noexcept;
 
 // Parses [PRESET,]FAULT:VALUE,... or "off". The error quotes the wrong term, and suggests the nearest name.
 [[nodiscard]] SetupResult<Faults> parse_faults(std::string_view text);

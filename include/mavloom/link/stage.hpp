@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a module outside `link` puts at the border of a link, between the wire and the parser or queue: a chain of
-// stages. Each stage may pass, change, cut, copy, drop or hold what it gets. Faults of links are such stages.
+// A module outside `link` may put a chain of stages at the border of a link, between the wire and the parser or queue.
+// Each stage may pass, change, cut, copy, drop or hold what it gets. Faults of links are such stages.
 //
 // Inward, a chain takes what was received, before the parser: a datagram, a message of a transport with threads, or the
 // bytes of one read of a stream, which may begin and end anywhere. Outward, it takes one frame at a time, after

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What receivers measure against what was injected, in simulated time; and faults of real links.
+// In simulated time, receivers measure what was injected. And faults of real links.
 #include "mavloom/fault/faults.hpp"
 
 #include <algorithm>
