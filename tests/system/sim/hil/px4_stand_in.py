@@ -242,7 +242,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("-d", action="store_true", help="ignored")
     parser.add_argument("-i", type=int, default=0, help="instance: port 4560 + i, system id 1 + i")
-    parser.add_argument("-w", help="the folder to work in")
+    parser.add_argument("-w", help="the folder to work in; PX4 would create it")
     parser.add_argument("folders", nargs="*", help="ignored")
     given = parser.parse_args()
     if given.w:
