@@ -84,9 +84,13 @@ Failure failure_of(FaultKind kind) noexcept {
 }
 
 void fail_numbered(Failures& failures, const Fault& fault) noexcept {
-    const auto set = [&](std::uint16_t& mask) { mask = static_cast<std::uint16_t>(mask | mask_of(fault)); };
-    if (fault.part == motor) return set(failures.stopped_motors);
-    set(fault.kind == off ? failures.silent_escs : failures.wrong_escs);
+    const auto mark = [&](std::uint16_t& mask, FaultKind kind) {
+        const auto others = static_cast<std::uint16_t>(mask & ~mask_of(fault));
+        mask = fault.kind == kind ? static_cast<std::uint16_t>(others | mask_of(fault)) : others;
+    };
+    if (fault.part == motor) return mark(failures.stopped_motors, off);
+    mark(failures.silent_escs, off);
+    mark(failures.wrong_escs, wrong);
 }
 
 Failure* part_of(Failures& failures, FaultPart part) noexcept {
@@ -121,7 +125,11 @@ void Faults::set(const Fault& fault) {
         if (!is_numbered(fault.part) || fault.count == 0) return true;
         return other.count != 0 && other.numbers[0] == fault.numbers[0];
     });
-    if (fault.kind != ok) faults_.push_back(fault);
+    // One of them works again while all others fail.
+    const bool is_exception = fault.count != 0 && std::ranges::any_of(faults_, [&](const Fault& other) {
+                                  return other.part == fault.part && other.count == 0 && is_numbered(other.part);
+                              });
+    if (fault.kind != ok || is_exception) faults_.push_back(fault);
 }
 
 Failures Faults::failures() const noexcept {

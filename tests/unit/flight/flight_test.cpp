@@ -167,6 +167,18 @@ TEST(Faults, OfMotorsThatTheVehicleLacksAreRefused) {
     EXPECT_FALSE(other.flight.set_fault({FaultPart::motor, FaultKind::off}).is_accepted());
 }
 
+TEST(Faults, OneMotorWorksAgainWhileTheOthersFail) {
+    FlightRig rig(ready);
+    ASSERT_TRUE(rig.flight.set_fault({FaultPart::motor, FaultKind::off}).is_accepted());
+    ASSERT_TRUE(rig.flight.set_fault({FaultPart::motor, FaultKind::ok, {2}, 1}).is_accepted());
+    ASSERT_TRUE(rig.arm().is_accepted());
+    rig.run(3);
+    EXPECT_EQ(rig.flight.outputs()[0], 0);
+    EXPECT_GT(rig.flight.outputs()[1], 0);
+    ASSERT_TRUE(rig.flight.set_fault({FaultPart::motor, FaultKind::ok}).is_accepted());
+    EXPECT_TRUE(rig.flight.faults().empty());
+}
+
 // The vehicle holds what it takes for its place, so it really moves the other way. It lags about a metre behind.
 TEST(Faults, ADriftOfTheGpsCarriesTheVehicleAway) {
     FlightRig rig(ready);
