@@ -17,8 +17,10 @@ install(FILES "${CMAKE_CURRENT_BINARY_DIR}/mavloomConfig.cmake" "${CMAKE_CURRENT
         DESTINATION "${package_folder}" COMPONENT mavloom_development)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/guide" "${PROJECT_SOURCE_DIR}/docs/formats"
         DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT mavloom_runtime FILES_MATCHING PATTERN "*.md")
-install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/CHANGELOG.md" DESTINATION "${CMAKE_INSTALL_DOCDIR}"
-        COMPONENT mavloom_runtime)
+configure_file("${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${CMAKE_CURRENT_BINARY_DIR}/CHANGELOG.md" COPYONLY)
+execute_process(COMMAND gzip -9nf "${CMAKE_CURRENT_BINARY_DIR}/CHANGELOG.md" COMMAND_ERROR_IS_FATAL ANY)
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${CMAKE_CURRENT_BINARY_DIR}/CHANGELOG.md.gz"
+        DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT mavloom_runtime)
 install(EXPORT mavloomTargets NAMESPACE mavloom:: DESTINATION "${package_folder}" COMPONENT mavloom_development)
 
 # Removes the line numbers of release builds, which are for back traces, from what was installed: they are most of its

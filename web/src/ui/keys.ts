@@ -25,9 +25,13 @@ export function useKeys(actions: Record<string, Action>): () => void {
     };
 }
 
-// An element that is not in the document yet may come with one of the next frames.
-export function focusOn(selector: string, frames = 10): void {
+let wanted = ""; // the last element that should get the focus
+
+// An element that is not in the document yet may come with one of the next frames. Only the last one asked for counts.
+export function focusOn(selector: string, frames = 30): void {
+    wanted = selector;
     requestAnimationFrame(() => {
+        if (wanted !== selector) return;
         const found = document.querySelector<HTMLElement>(selector);
         if (found) found.focus({ preventScroll: true });
         else if (frames > 0) focusOn(selector, frames - 1);
