@@ -58,7 +58,7 @@ TEST_F(SensorsTest, AccelerometersOfALevelVehicleShowGravityUpwards) {
     EXPECT_NEAR(z.mean(), -9.80665, 0.01);
     EXPECT_NEAR(x.mean(), 0, 0.01);
     EXPECT_NEAR(z.deviation(), 0.1, 0.01);
-    EXPECT_NEAR(gyroscope.deviation(), 0.01, 0.001);
+    EXPECT_NEAR(gyroscope.deviation(), 0.005, 0.0005);
 }
 
 TEST_F(SensorsTest, AccelerometersShowTheSpecificForceInTheBodyFrame) {
