@@ -255,8 +255,8 @@ public:
     void note(const wire::FrameView& frame) {
         const auto [at, is_new] = next_.try_emplace({frame.system().value, frame.source().component.value}, 0);
         const auto step = static_cast<std::uint8_t>(frame.sequence() - at->second);
-        if (step == 255) ++copies;
-        else if (step != 0 && is_whole_ && frame.sequence() == 0) ++begun_again[frame.system().value];
+        if (step != 0 && is_whole_ && frame.sequence() == 0) ++begun_again[frame.system().value];
+        else if (step == 255) ++copies;
         else missing += step;
         at->second = static_cast<std::uint8_t>(frame.sequence() + 1);
     }
