@@ -127,7 +127,7 @@ void Faults::set(const Fault& fault) {
     });
     // One of them works again while all others fail.
     const bool is_exception = fault.count != 0 && std::ranges::any_of(faults_, [&](const Fault& other) {
-                                  return other.part == fault.part && other.count == 0 && is_numbered(other.part);
+                                  return other.part == fault.part && other.count == 0;
                               });
     if (fault.kind != ok || is_exception) faults_.push_back(fault);
 }

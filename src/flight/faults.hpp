@@ -14,7 +14,7 @@ namespace mavloom::flight {
 class Faults {
 public:
     // Only for a fault that lasts. A part has one at a time; each motor and each ESC has its own. "ok" ends those of
-    // its part, or of its motor.
+    // its part, or of its motor: after a fault of all motors, it stays as the exception from it.
     void set(const Fault& fault);
 
     [[nodiscard]] Failures failures() const noexcept;

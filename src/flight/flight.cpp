@@ -40,7 +40,7 @@ void Flight::step() {
     if (context_.craft.put_backs() != put_backs_) on_put_back();
 }
 
-// The pilot's autopilot is as good as new. If it happens again and again, one text is enough.
+// The pilot starts afresh. Only the first time is reported.
 void Flight::on_put_back() {
     if (std::exchange(put_backs_, context_.craft.put_backs()) == 0)
         context_.say(Severity::critical, "Motion became infinite: back at home, check body and wind");

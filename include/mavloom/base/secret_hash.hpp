@@ -17,7 +17,7 @@ namespace mavloom {
     return high ^ (other << 32 | (low & half));
 }
 
-// The upper 64 bits of the product, exclusive or the lower ones: every bit depends on every bit of both factors.
+// The upper 64 bits of the product, xor the lower ones: every bit depends on every bit of both factors.
 [[nodiscard]] constexpr std::uint64_t folded_product(std::uint64_t a, std::uint64_t b) noexcept {
 #ifdef __SIZEOF_INT128__
     __extension__ using Wide = unsigned __int128;

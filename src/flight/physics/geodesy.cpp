@@ -21,7 +21,7 @@ struct SineCosine {
 };
 SineCosine of_angle(double angle) noexcept { return {math::sin(angle), math::cos(angle)}; }
 
-// The latitude on the sphere that touches the ellipsoid at the equator.
+// Of the reduced latitude: that on the sphere that touches the ellipsoid along the equator.
 SineCosine reduced_latitude(double degrees) noexcept {
     const auto [sine, cosine] = of_angle(to_radians(degrees));
     const double out = cosine, up = (1 - flattening) * sine, length = math::hypot(out, up);
@@ -38,7 +38,7 @@ struct Geodesic {
         b = u / 1024 * (256 + u * (-128 + u * (74 - 47 * u)));
         c = flattening / 16 * squared_cosine * (4 + flattening * (4 - 3 * squared_cosine));
     }
-    // The difference between the angle on the sphere, and the distance over `semi_minor` * a. `middle` is the cosine of
+    // The angle on the sphere exceeds, by this much, the distance over `semi_minor` * a. `middle` is the cosine of
     // twice the angle from the equator to the middle of the arc.
     [[nodiscard]] double angle_excess(const SineCosine& arc, double middle) const noexcept {
         const double square = 2 * middle * middle - 1;
@@ -46,7 +46,7 @@ struct Geodesic {
                (middle +
                 b / 4 * (arc.cosine * square - b / 6 * middle * (4 * arc.sine * arc.sine - 3) * (2 * square - 1)));
     }
-    // The longitude on the sphere is larger than that on the ellipsoid, by this.
+    // By this much, the longitude on the sphere exceeds that on the ellipsoid.
     [[nodiscard]] double longitude_excess(double angle, const SineCosine& arc, double middle) const noexcept {
         const double square = 2 * middle * middle - 1;
         return (1 - c) * flattening * sine * (angle + c * arc.sine * (middle + c * arc.cosine * square));

@@ -43,14 +43,13 @@ std::uint64_t missing_in_rings(const Evidence& evidence) {
 }
 
 // Frames and pieces that fault= drops or damages. Inward, a piece may hold several frames.
-constexpr std::array<std::string_view, 5> fault_counters{"fault_blackout", "fault_lost", "fault_corrupted", "fault_cut",
-                                                         "fault_queue"};
-
 std::vector<NamedCount> injected(const HopLink& before, const HopLink& after) {
     std::vector<NamedCount> counts;
-    for (const auto name : fault_counters)
-        if (const auto more = grown(count_of(before.losses, name), count_of(after.losses, name)); more != 0)
-            counts.push_back({std::string(name), more});
+    for (const auto& loss : after.losses) {
+        if (!loss.name.starts_with("fault_")) continue;
+        if (const auto more = grown(count_of(before.losses, loss.name), loss.count); more != 0)
+            counts.push_back({loss.name, more});
+    }
     return counts;
 }
 

@@ -39,9 +39,10 @@ def test_the_links_are_a_table_on_a_terminal(ctl, names):
     assert any(re.match(r"udpin://127\.0\.0\.1:\d+#127\.0\.0\.1:\d+ +up +\d+ +0 ", line) for line in shown), shown
 
 
-def test_a_heading_is_less_than_360_degrees(ctl, spawn, udp_port):
+def test_a_heading_is_less_than_360_degrees(ctl, run, spawn, udp_port):
     name = f"ctl-heading-{os.getpid()}"
     spawn("sim", "--to", f"udpout://127.0.0.1:{udp_port()}", "--name", name, "--home", "47.4,8.5,489,359.8")
+    harness.wait_for(lambda: run("ctl", name, "state").status == 0, what="the simulator")
     shown = lines(ctl(name, "state", columns=200))
     place = re.split("  +", shown[0].strip()).index("HEADING")
     assert re.split("  +", shown[1].strip())[place] == "0", shown

@@ -29,7 +29,17 @@ using ::testing::Each;
 using ::testing::Ge;
 using ::testing::SizeIs;
 
-using PairTest = test::PairRig;
+class PairTest : public test::PairRig {
+public:
+    // Lets a vehicle without noise and drag rise. Returns its speed northwards, m/s.
+    double rise_without_drag() {
+        options.vehicle.has_noise = false;
+        options.vehicle.body.copter.drag = 0;
+        begin();
+        fly(500, four(0.6f));
+        return pair->status().north_m_s;
+    }
+};
 
 TEST_F(PairTest, EachGroupOfSensorsHasItsOwnRateAndAllBits) {
     begin();
@@ -248,11 +258,7 @@ TEST_F(PairTest, ABoardGetsHeartbeatsAndNoTrueState) {
 }
 
 TEST_F(PairTest, APushMovesItByItsVelocity) {
-    options.vehicle.has_noise = false;
-    options.vehicle.body.copter.drag = 0;
-    begin();
-    fly(500, four(0.6f));
-    const double before = pair->status().north_m_s;
+    const double before = rise_without_drag();
     pair->push({.north_m_s = 3});
     fly(125, four(0.5f));
     EXPECT_NEAR(pair->status().north_m_s - before, 3, 0.05);
@@ -264,11 +270,7 @@ TEST_F(PairTest, APushMovesItByItsVelocity) {
 }
 
 TEST_F(PairTest, APushThatFollowsAnotherAddsToIt) {
-    options.vehicle.has_noise = false;
-    options.vehicle.body.copter.drag = 0;
-    begin();
-    fly(500, four(0.6f));
-    const double before = pair->status().north_m_s;
+    const double before = rise_without_drag();
     pair->push({.north_m_s = 3});
     fly(50, four(0.5f));
     pair->push({.yaw_deg_s = 90});
