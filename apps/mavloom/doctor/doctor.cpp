@@ -56,8 +56,8 @@ SetupResult<std::unique_ptr<Listening>> open(const Common& common, DoctorOptions
     const auto asked = options.sources.empty() ? Listening::Asked::no : Listening::Asked::yes;
     auto running = find_sources(common, options.sources);
     if (!running && running.error().code != SetupCode::in_use) return tl::unexpected(std::move(running.error()));
-    // Another program has the port: that is a finding.
-    if (!running) options.sources = {std::string(usual_source), std::string(second_source)};
+    // Other programs have the ports: that is a finding.
+    if (options.sources.empty()) options.sources = {std::string(usual_source), std::string(second_source)};
     const auto endpoints = endpoint::parse_endpoints(options.sources);
     if (!endpoints) return tl::unexpected(endpoints.error());
     if (auto checked = check_kinds(*endpoints); !checked) return tl::unexpected(std::move(checked.error()));
