@@ -88,7 +88,7 @@ SetupResult<sim::CopterBody> parse_copter(std::string_view text) {
     if (!preset) return tl::unexpected(preset.error());
     CopterBody body = body_of(static_cast<sim::BodyPreset>(*preset));
     if (auto done = place_rotors(body, *parts); !done) return tl::unexpected(std::move(done.error()));
-    if (auto done = set_named_numbers<CopterBody>(body, *parts, numbers, {"preset", "frame", "arm"}); !done)
+    if (auto done = set_named_numbers<CopterBody>(body, *parts, numbers, {preset_name, "frame", "arm"}); !done)
         return tl::unexpected(std::move(done.error()));
     if (auto done = check_body(body); !done) return tl::unexpected(std::move(done.error()));
     return body;

@@ -180,7 +180,8 @@ SetupResult<void> check_board(const Scenario& scenario, std::size_t vehicles) {
     if (scenario.hil_rates.imus > 1)
         return hil_error(fmt::format("{}: a flight controller takes one IMU, so hil_sensors has imus:1", label));
     if (scenario.speed != 1)
-        return hil_error(fmt::format("{}: a flight controller flies in real time, so speed is 1", label));
+        return hil_error(
+            fmt::format("{}: a flight controller flies in real time, so speed and PX4_SIM_SPEED_FACTOR are 1", label));
     if (vehicles > 1)
         return hil_error(fmt::format("{}: a flight controller flies one vehicle, not {}", label, vehicles));
     return {};

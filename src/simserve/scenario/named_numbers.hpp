@@ -2,18 +2,13 @@
 // Parses a preset and the numbers that change it: "iris,mass:1.8". Private to module simserve.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "mavloom/base/shown.hpp"
-#include "mavloom/dialect/terms.hpp"
 #include "simserve/scenario/values.hpp"
 
 namespace mavloom::simserve {
@@ -26,21 +21,11 @@ struct NamedNumber {
     double& (*of)(Target&);
 };
 
-using NamedPart = std::pair<std::string_view, std::string_view>;
+constexpr std::string_view preset_name = "preset";
 
-// The parts of the text in their order. A first part without a name is the preset's.
+// The parts of the text. A first part without a name is the preset's.
 inline SetupResult<std::vector<NamedPart>> named_parts_of(std::string_view text) {
-    std::vector<NamedPart> parts;
-    const auto add = [&](std::string_view term) -> SetupResult<void> {
-        const auto colon = term.find(':');
-        if (colon == std::string_view::npos && !parts.empty())
-            return setup_error(SetupCode::usage, fmt::format("{} is not NAME:VALUE", in_quotes(term)));
-        if (colon == std::string_view::npos) parts.emplace_back("preset", term);
-        else parts.emplace_back(term.substr(0, colon), term.substr(colon + 1));
-        return {};
-    };
-    if (auto done = dialect::for_each_term(text, add); !done) return tl::unexpected(std::move(done.error()));
-    return parts;
+    return parse_named_parts(text, preset_name);
 }
 
 inline std::optional<std::string_view> find_part(const std::vector<NamedPart>& parts, std::string_view name) {
@@ -51,10 +36,10 @@ inline std::optional<std::string_view> find_part(const std::vector<NamedPart>& p
 // The index of the preset that the parts name; 0 if they name none.
 inline SetupResult<std::size_t> preset_index(const std::vector<NamedPart>& parts,
                                              std::span<const std::string_view> presets) {
-    const auto name = find_part(parts, "preset");
+    const auto name = find_part(parts, preset_name);
     if (!name) return 0;
     auto index = parse_choice(*name, presets);
-    if (!index) return tl::unexpected(SetupError(index.error()).within("preset"));
+    if (!index) return tl::unexpected(SetupError(index.error()).within(preset_name));
     return index;
 }
 

@@ -34,7 +34,7 @@ SetupResult<NoiseOptions> parse_noise(std::string_view text) {
     const auto preset = preset_index(*parts, sim::noise_names);
     if (!preset) return tl::unexpected(preset.error());
     NoiseOptions noise = noise_of(static_cast<sim::NoisePreset>(*preset));
-    if (auto done = set_named_numbers<NoiseOptions>(noise, *parts, noise_numbers, {"preset"}); !done)
+    if (auto done = set_named_numbers<NoiseOptions>(noise, *parts, noise_numbers, {preset_name}); !done)
         return tl::unexpected(std::move(done.error()));
     return noise;
 }

@@ -126,7 +126,7 @@ SetupResult<PlaneBody> parse_plane(std::string_view text) {
     const auto preset = preset_index(*parts, sim::plane_names);
     if (!preset) return tl::unexpected(preset.error());
     PlaneBody body = body_of(static_cast<sim::PlanePreset>(*preset));
-    if (auto done = set_named_numbers<PlaneBody>(body, *parts, plane_numbers, {"preset"}); !done)
+    if (auto done = set_named_numbers<PlaneBody>(body, *parts, plane_numbers, {preset_name}); !done)
         return tl::unexpected(std::move(done.error()));
     for (auto* const check : {&check_speeds, &check_climb, &check_controls, &check_steadiness})
         if (auto done = check(body); !done) return tl::unexpected(std::move(done.error()));

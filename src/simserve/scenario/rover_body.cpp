@@ -63,7 +63,7 @@ SetupResult<RoverBody> parse_rover(std::string_view text) {
     const auto preset = preset_index(*parts, sim::rover_names);
     if (!preset) return tl::unexpected(preset.error());
     RoverBody body = body_of(static_cast<sim::RoverPreset>(*preset));
-    if (auto done = set_named_numbers<RoverBody>(body, *parts, rover_numbers, {"preset", "wheel_base", "steering"});
+    if (auto done = set_named_numbers<RoverBody>(body, *parts, rover_numbers, {preset_name, "wheel_base", "steering"});
         !done)
         return tl::unexpected(std::move(done.error()));
     if (auto done = set_wheels(body, *parts); !done) return tl::unexpected(std::move(done.error()));

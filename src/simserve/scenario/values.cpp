@@ -105,19 +105,33 @@ SetupResult<std::array<double, 3>> parse_three(std::string_view text, Range rang
     return std::array{(*values)[0], (*values)[1], (*values)[2]};
 }
 
-SetupResult<std::vector<std::pair<std::string, double>>> parse_pairs(std::string_view text) {
-    std::vector<std::pair<std::string, double>> pairs;
+SetupResult<std::vector<NamedPart>> parse_named_parts(std::string_view text, std::string_view preset) {
+    std::vector<NamedPart> parts;
     const auto add = [&](std::string_view term) -> SetupResult<void> {
         const auto colon = term.find(':');
-        if (colon == std::string_view::npos || colon == 0)
+        const bool is_preset = colon == std::string_view::npos && parts.empty() && !preset.empty();
+        if (!is_preset && (colon == std::string_view::npos || colon == 0))
             return usage(fmt::format("{} is not NAME:VALUE", in_quotes(term)));
-        constexpr double most = 3.4e38;  // of a parameter, which is a 32-bit float
-        const auto value = parse_number(term.substr(colon + 1), {-most, most});
-        if (!value) return tl::unexpected(SetupError(value.error()).within(shown(term.substr(0, colon))));
-        pairs.emplace_back(term.substr(0, colon), *value);
+        const auto part = is_preset ? NamedPart{preset, term} : NamedPart{term.substr(0, colon), term.substr(colon + 1)};
+        if (std::ranges::find(parts, part.first, &NamedPart::first) != parts.end())
+            return usage(fmt::format("{} stands twice", in_quotes(part.first)));
+        parts.push_back(part);
         return {};
     };
     if (auto done = dialect::for_each_term(text, add); !done) return tl::unexpected(std::move(done.error()));
+    return parts;
+}
+
+SetupResult<std::vector<std::pair<std::string, double>>> parse_pairs(std::string_view text) {
+    const auto parts = parse_named_parts(text, {});
+    if (!parts) return tl::unexpected(parts.error());
+    std::vector<std::pair<std::string, double>> pairs;
+    for (const auto& [name, number] : *parts) {
+        constexpr double most = 3.4e38;  // of a parameter, which is a 32-bit float
+        const auto value = parse_number(number, {-most, most});
+        if (!value) return tl::unexpected(SetupError(value.error()).within(shown(name)));
+        pairs.emplace_back(name, *value);
+    }
     return pairs;
 }
 

@@ -34,7 +34,11 @@ inline constexpr Range latitude_range{-90, 90}, longitude_range{-180, 180}, take
 [[nodiscard]] SetupResult<sim::BatteryOptions> parse_battery(std::string_view text);
 // "1,2,3": three numbers of the range.
 [[nodiscard]] SetupResult<std::array<double, 3>> parse_three(std::string_view text, Range range);
-// "NAME:VALUE,NAME:VALUE".
+using NamedPart = std::pair<std::string_view, std::string_view>;
+// "NAME:VALUE,NAME:VALUE", in this order, each name once. With a `preset`, the first part may be a value alone: that is
+// the name it gets.
+[[nodiscard]] SetupResult<std::vector<NamedPart>> parse_named_parts(std::string_view text, std::string_view preset);
+// The same, of numbers.
 [[nodiscard]] SetupResult<std::vector<std::pair<std::string, double>>> parse_pairs(std::string_view text);
 
 // The words between blanks.

@@ -230,6 +230,7 @@ TEST(ScenarioValues, ABodyThatCannotFlyIsRefused) {
     EXPECT_THAT(error("frame:hexa"), HasSubstr("frame: 'hexa' is none of quad-x"));
     EXPECT_THAT(error("mas:2"), HasSubstr("did you mean 'mass'?"));
     EXPECT_THAT(error("mass:2,iris"), HasSubstr("'iris' is not NAME:VALUE"));
+    EXPECT_THAT(error("mass:2,mass:3"), HasSubstr("'mass' stands twice"));
 }
 
 TEST(ScenarioValues, TheBodyOfAPlaneIsAPresetWithChanges) {
