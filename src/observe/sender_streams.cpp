@@ -57,11 +57,18 @@ bool SenderStream::has_regular_gaps() const noexcept {
            windows.variation() < limit;
 }
 
+// When the sender's time_boot_ms was 0, in UTC. Empty: it has no UTC, or one after 2116. Two of them do not overflow
+// when they are subtracted.
+static std::optional<Nanoseconds> start_of(const msg::SystemTime& time) noexcept {
+    constexpr std::uint64_t most = INT64_MAX / 2 / 1000;
+    if (time.time_unix_usec == 0 || time.time_unix_usec > most) return std::nullopt;
+    return std::chrono::microseconds(time.time_unix_usec) - std::chrono::milliseconds(time.time_boot_ms);
+}
+
 struct SenderStreams::State {
     struct Print {
         std::uint64_t bytes = 0, number = 0;  // of the frame, from 1; 0: none
         LinkId link{};
-        MessageId id{};
     };
 
     // On one of several links, the frame follows the one before it: the link has a sequence of its own, or carries all.
@@ -78,9 +85,9 @@ struct SenderStreams::State {
         return known.number == 0 || its.frames - known.number >= frames_until_again ? nullptr : &known;
     }
 
-    // Of SYSTEM_TIME.
+    // Of the newest SYSTEM_TIME on a link.
     struct Clock {
-        Nanoseconds start{};  // when it was 0, in UTC
+        Nanoseconds start{};  // when time_boot_ms was 0, in UTC
         WallTime heard{};
     };
 
@@ -151,7 +158,7 @@ void SenderStreams::note_sequence(State& state, const Heard& heard) {
     const bool follows = state.follows_on_link(heard.link, sequence);
     const auto ahead = static_cast<std::int8_t>(sequence - state.newest);
     const auto print = print_of(heard.frame);
-    if (heard.frame.id() == msg::SystemTime::id) note_clock(state, heard, print);
+    if (heard.frame.id() == msg::SystemTime::id) note_clock(state, heard);
     if (is_first || ahead > 0 || ahead < farthest_behind) {
         if (!is_first && ahead != 1 && follows) ++its.conflicts_across;
         else if (!is_first && ahead > 0 && -ahead >= farthest_behind)
@@ -162,27 +169,25 @@ void SenderStreams::note_sequence(State& state, const Heard& heard) {
         if (follows) ++its.conflicts_across;
         if (++state.behind_in_row == restarted_after) state.newest = sequence;
     }
-    state.prints[sequence] = {print, its.frames, heard.link, heard.frame.id()};
+    state.prints[sequence] = {print, its.frames, heard.link};
 }
 
-// A vehicle that starts again may come by another link, so only what was heard lately counts.
-void SenderStreams::note_clock(State& state, const Heard& heard, std::uint64_t print) {
+// One vehicle has one start on all links, but for the milliseconds of time_boot_ms. A start that moves from one
+// SYSTEM_TIME of a link to the next one counts nothing: the time of day was set, the vehicle began again, or it is
+// simulated faster or slower than real time.
+void SenderStreams::note_clock(State& state, const Heard& heard) {
     using namespace std::chrono_literals;
-    constexpr Nanoseconds lately = 2s, tolerance = 100ms;
-    const auto time = msg::SystemTime::decode(heard.frame.payload());
-    if (time.time_unix_usec == 0 || time.time_unix_usec > INT64_MAX / 1000) return;
-    const auto start = std::chrono::microseconds(time.time_unix_usec) - std::chrono::milliseconds(time.time_boot_ms);
-    const bool differs = std::ranges::any_of(state.clocks, [&](const auto& entry) {
-        const auto& [link, clock] = entry;
-        return link != heard.link && heard.time - clock.heard < lately &&
-               std::chrono::abs(clock.start - start) > tolerance;
-    });
-    const auto* const known = state.print_of_number(heard.frame.sequence());
-    const bool is_other = known != nullptr && known->id == msg::SystemTime::id && known->link != heard.link &&
-                          known->bytes != print;
-    if (differs || is_other) ++state.its.clocks_across;
-    if (state.clocks.size() < max_links || state.clocks.contains(heard.link))
-        state.clocks[heard.link] = {start, heard.time};
+    constexpr Nanoseconds lately = 2s, tolerance = 2ms;
+    const auto start = start_of(msg::SystemTime::decode(heard.frame.payload()));
+    if (!start) return;
+    const auto is_lately = [&](const State::Clock& clock) { return heard.time - clock.heard < lately; };
+    const auto is_same = [&](const State::Clock& clock) { return std::chrono::abs(clock.start - *start) <= tolerance; };
+    const auto own = state.clocks.find(heard.link);
+    const bool is_steady = own != state.clocks.end() && is_lately(own->second) && is_same(own->second);
+    const bool contradicts = std::ranges::any_of(
+        state.clocks, [&](const auto& entry) { return is_lately(entry.second) && !is_same(entry.second); });
+    if (is_steady && contradicts) ++state.its.clocks_across;
+    if (state.clocks.size() < max_links || own != state.clocks.end()) state.clocks[heard.link] = {*start, heard.time};
 }
 
 // For a frame that is not newer than all before it. Returns false if it is no copy.

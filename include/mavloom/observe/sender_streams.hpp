@@ -29,7 +29,7 @@ struct SenderStream {
     std::uint64_t conflicts_on_link = 0;
     // Frames that follow the one before them on their link, and do not fit into the sequence of all links.
     std::uint64_t conflicts_across = 0;
-    // SYSTEM_TIMEs that contradict one of another link: another time at the same number, or another start of the clock.
+    // SYSTEM_TIMEs that contradict one of another link: by them, the vehicle's clock started at another time.
     std::uint64_t clocks_across = 0;
     // Changes of the vehicle's kind or autopilot between two HEARTBEATs.
     std::uint64_t changes_of_kind = 0;
@@ -84,7 +84,7 @@ private:
     [[nodiscard]] State* find_or_add(const Heard& heard);
     static void note_sequence(State& state, const Heard& heard);
     static void note_window(State& state, WallTime time);
-    static void note_clock(State& state, const Heard& heard, std::uint64_t print);
+    static void note_clock(State& state, const Heard& heard);
     static bool count_copy(State& state, const Heard& heard, std::uint64_t print);
 
     std::map<Source, std::size_t> index_;

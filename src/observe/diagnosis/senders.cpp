@@ -51,7 +51,8 @@ bool has_two_clocks(const Evidence& evidence, Source sender) {
     });
 }
 
-// Simulators that were started together send the same frames, but for the time of day. A restart may change it twice.
+// Simulators that were started together send the same frames, but for the time of day. One clock may contradict itself
+// once or twice, when the vehicle's processor is busy.
 bool has_other_times(const SenderStream& sender) { return sender.clocks_across >= least_clocks; }
 
 // Links that carry a good part of its frames.

@@ -233,10 +233,10 @@ def plant_two_links(world):
 
 
 def plant_two_simulators_together(world):
-    """The same flight twice, but for the time of day."""
+    """The same flight twice, but for the time of day: the second one begins some milliseconds after the first."""
     port = world.port()
     for name in ("twin-a", "twin-b"):
-        world.spawn("sim", "--to", f"udpout://127.0.0.1:{port}", "--name", world.name(name))
+        world.spawn("sim", "--to", f"udpout://127.0.0.1:{port}", "--name", world.name(name)).wait_output("vehicle 1: ")
     return [f"udpin://127.0.0.1:{port}"]
 
 

@@ -24,9 +24,16 @@ struct SenderStreamsTest : ::testing::Test {
         streams.add({.frame = view(bytes), .link = link, .link_name = "a", .time = wall(at), .now = mono(at)});
         at += 10ms;
     }
+    void hear_time(int sequence, LinkId link, std::uint64_t unix_us, std::uint32_t boot_ms) {
+        auto bytes = frame_of(msg::SystemTime{.time_unix_usec = unix_us, .time_boot_ms = boot_ms});
+        bytes[4] = static_cast<std::uint8_t>(sequence);
+        streams.add({.frame = view(bytes), .link = link, .link_name = "a", .time = wall(at), .now = mono(at)});
+        at += 10ms;
+    }
     [[nodiscard]] SenderStream its() const { return streams.all().front(); }
 
-    static constexpr LinkId one{1}, other{2};
+    static constexpr LinkId one{1}, other{2}, third{3};
+    static constexpr std::uint64_t utc = 1'700'000'000'000'000;
     Nanoseconds at{};
     SenderStreams streams;
 };
@@ -58,27 +65,53 @@ TEST_F(SenderStreamsTest, ALinkThatLagsHasCopiesToo) {
     EXPECT_EQ(its().conflicts_across + its().missing, 0u);
 }
 
-TEST_F(SenderStreamsTest, TwoClocksAreSeenByTheirTimes) {
-    const auto hear_time = [&](int sequence, LinkId link, std::uint64_t unix_us, std::uint32_t boot_ms) {
-        auto bytes = frame_of(msg::SystemTime{.time_unix_usec = unix_us, .time_boot_ms = boot_ms});
-        bytes[4] = static_cast<std::uint8_t>(sequence);
-        streams.add({.frame = view(bytes), .link = link, .link_name = "a", .time = wall(at), .now = mono(at)});
-        at += 10ms;
-    };
-    constexpr std::uint64_t utc = 1'700'000'000'000'000;
-    hear_time(0, one, utc, 1000);
-    hear_time(0, other, utc, 1000);  // a copy
-    hear_time(7, other, utc + 20'000, 1020);
-    EXPECT_EQ(its().clocks_across, 0u) << "one clock, at two ports";
-    hear_time(7, one, utc + 21'000, 1020);
-    EXPECT_EQ(its().clocks_across, 1u) << "another time at the same number";
-    hear_time(30, other, utc + 900'000, 1000);
-    EXPECT_EQ(its().clocks_across, 2u) << "another start";
+// A copy, and a port with numbers of its own, three milliseconds later.
+TEST_F(SenderStreamsTest, OneClockAtThreePortsContradictsNothing) {
+    for (std::uint32_t s = 0; s < 10; ++s) {
+        hear_time(static_cast<int>(20 * s), one, utc + s * 1'000'000 + 400, 1000 + 1000 * s);
+        hear_time(static_cast<int>(20 * s), other, utc + s * 1'000'000 + 400, 1000 + 1000 * s);
+        hear_time(static_cast<int>(20 * s), third, utc + s * 1'000'000 + 3'500, 1003 + 1000 * s);
+    }
+    EXPECT_EQ(its().clocks_across, 0u);
+}
+
+TEST_F(SenderStreamsTest, TwoClocksAreSeenByTheirTimesOfDay) {
+    for (std::uint32_t s = 0; s < 4; ++s) {
+        hear_time(static_cast<int>(s), one, utc + s * 1'000'000, 1000 * s);
+        hear_time(static_cast<int>(s), other, utc + s * 1'000'000 + 5'000, 1000 * s);
+    }
+    EXPECT_EQ(its().clocks_across, 6u) << "all but the first of each link";
     hear_time(31, one, 0, 5000);
-    EXPECT_EQ(its().clocks_across, 2u) << "no time of day";
+    EXPECT_EQ(its().clocks_across, 6u) << "no time of day";
+}
+
+TEST_F(SenderStreamsTest, AClockThatIsSetOrStartsAgainContradictsNothing) {
+    for (const std::uint64_t set_by : {0, 0, 50'000, 50'000, 50'000}) {
+        hear_time(0, one, utc + set_by, 1000);
+        hear_time(0, other, utc + set_by, 1000);
+    }
+    hear_time(0, other, utc + 60'000, 0);  // and comes by one link only
     at += 2s;
-    hear_time(32, one, utc + 9'000'000, 10);
-    EXPECT_EQ(its().clocks_across, 2u) << "started again";
+    hear_time(0, other, utc + 2'060'000, 2000);
+    EXPECT_EQ(its().clocks_across, 0u);
+}
+
+// PX4's simulation at five times real time: time_boot_ms is that of the flight, time_unix_usec is not.
+TEST_F(SenderStreamsTest, AClockThatIsFasterThanRealTimeContradictsNothing) {
+    for (std::uint32_t s = 0; s < 10; ++s) {
+        hear_time(static_cast<int>(s), one, utc + s * 200'000, 1000 * s);
+        hear_time(static_cast<int>(s), other, utc + s * 200'000 + 100'000, 1000 * s + 500);
+    }
+    EXPECT_EQ(its().clocks_across, 0u);
+}
+
+TEST_F(SenderStreamsTest, TimesOfDayBeyondAllMeasureAreNoClock) {
+    for (const std::uint64_t unix_us : {UINT64_MAX, std::uint64_t{INT64_MAX} / 1000, std::uint64_t{INT64_MAX} / 2000}) {
+        hear_time(1, one, 1, UINT32_MAX);
+        hear_time(2, other, unix_us, 0);
+        hear_time(3, other, unix_us, 0);
+    }
+    EXPECT_EQ(its().clocks_across, 1u) << "of the last one, which is in 2116";
 }
 
 TEST_F(SenderStreamsTest, CopiesOnOneLink) {
