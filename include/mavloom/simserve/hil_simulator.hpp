@@ -110,7 +110,9 @@ private:
 };
 
 // Reports of the simulator, as those of report.hpp: a "hil" line for each vehicle, or for those with this system id.
-[[nodiscard]] control::Report report_hil(HilSimulator& simulator, std::optional<SystemId> system);
+// The lines `first` stand before them.
+[[nodiscard]] control::Report report_hil(HilSimulator& simulator, std::optional<SystemId> system,
+                                         std::string first = {});
 // The report at the end of a run: JSON lines, or a text for people.
 [[nodiscard]] std::string json_of(const std::vector<HilReport>& reports);
 [[nodiscard]] std::string text_of(const std::vector<HilReport>& reports);

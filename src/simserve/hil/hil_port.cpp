@@ -193,7 +193,7 @@ HilReport HilPort::report() const {
             .status = pair_.status(),
             .steps = lock_step.counters(),
             .counters = pair_.counters(),
-            .faults = faults,
+            .faults = std::move(faults),
             .speed_reached = lock_step.speed_reached(),
             .answer_median = lock_step.answer_times().at(0.5),
             .answer_p99 = lock_step.answer_times().at(0.99),

@@ -79,10 +79,12 @@ std::string metrics_of(const std::vector<HilReport>& reports) {
 
 }  // namespace
 
-control::Report report_hil(HilSimulator& simulator, std::optional<SystemId> system) {
+control::Report report_hil(HilSimulator& simulator, std::optional<SystemId> system, std::string first) {
     auto reports = simulator.reports();
     if (system) std::erase_if(reports, [&](const HilReport& report) { return report.status.system != *system; });
-    return control::succeeded([reports = std::move(reports)](std::string& text) { text += json_of(reports); });
+    return control::succeeded([first = std::move(first), reports = std::move(reports)](std::string& text) {
+        text += first + json_of(reports);
+    });
 }
 
 control::Report HilSimulator::metrics() {

@@ -55,12 +55,7 @@ Report report_steps(HilSimulator& simulator, const Json& request, const std::vec
         control::append_line(moved, {{"kind", "step"},
                                      {"system", pairs[i]->status().system.value},
                                      {"moved_s", seconds(pairs[i]->lock_step().time() - before[i])}});
-    auto reports = simulator.reports();
-    if (const auto system = *system_at(request))
-        std::erase_if(reports, [&](const HilReport& report) { return report.status.system != *system; });
-    return control::succeeded([moved = std::move(moved), reports = std::move(reports)](std::string& text) {
-        text += moved + json_of(reports);
-    });
+    return report_hil(simulator, *system_at(request), std::move(moved));
 }
 
 Report step_flights(HilSimulator& simulator, const Json& request) {
