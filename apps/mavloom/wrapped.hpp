@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Text of people in lines. Pure.
+// Breaks text for people into lines. Pure functions.
 #pragma once
 
 #include <string>

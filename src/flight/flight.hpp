@@ -123,9 +123,11 @@ public:
     [[nodiscard]] const Outputs& outputs() const noexcept { return context_.craft.outputs(); }
     [[nodiscard]] InnerTargets inner_targets() const { return context_.craft.targets(); }
     [[nodiscard]] double last_range() const noexcept { return context_.craft.last_range(); }
-    // True if the operator switched this part off.
+    // Those that the operator set, in that order.
     [[nodiscard]] std::span<const Fault> faults() const noexcept { return faults_.list(); }
+    // How often the motion was no longer finite, so that the vehicle was put back at its home.
     [[nodiscard]] unsigned put_backs() const noexcept { return put_backs_; }
+    // True if the operator switched this part off.
     [[nodiscard]] bool is_off(FaultPart part) const noexcept { return faults_.has(part); }
     [[nodiscard]] const Battery& battery() const noexcept { return context_.craft.battery(); }
     [[nodiscard]] const Vector3& wind() const noexcept { return context_.craft.wind(); }
@@ -200,7 +202,6 @@ private:
     FlightContext context_;
     Inputs inputs_;
     Failures injected_;
-    unsigned put_backs_ = 0;  // of the craft, as far as they were handled
     Faults faults_;
     Navigator navigator_;
     LandedDetector detector_;
@@ -210,6 +211,7 @@ private:
     std::optional<RandomPilot> random_pilot_;  // steers instead of the navigator
     Shown shown_;
     unsigned steps_ = 0;
+    unsigned put_backs_ = 0;  // those of the craft that were handled
 };
 
 }  // namespace mavloom::flight

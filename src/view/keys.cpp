@@ -49,7 +49,7 @@ void move(State& state, const Snapshot& shown, int by) {
     }
 }
 
-// Other keys end it.
+// `by` 0: a key that does not scroll closes the help.
 Effect scroll_help(State& state, int by) {
     state.first_help = std::max(0, state.first_help + by);
     if (by == 0) state.shows_help = false;

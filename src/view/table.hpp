@@ -79,7 +79,7 @@ void draw_prompt(Grid& grid, int y, const Snapshot& shown, const State& state);
            (column == Column::was && state.frozen == nullptr);
 }
 
-// From line `first` of it, which is corrected.
+// Draws the help from its line `first` on. If that is too far, `first` becomes the last one that fills the screen.
 void draw_help(Grid& grid, int y, int end, bool plays, int& first);
 
 // Which line is for what, in a terminal of this size. -1: there is no room for it.

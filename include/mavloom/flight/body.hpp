@@ -97,7 +97,7 @@ struct Body {
 [[nodiscard]] CopterBody body_of(BodyPreset preset);
 [[nodiscard]] PlaneBody body_of(PlanePreset preset);
 [[nodiscard]] RoverBody body_of(RoverPreset preset);
-// Of a rover whose front wheels turn by up to `steering_deg`.
+// The tightest turn, in metres, of a rover whose front wheels turn by up to `steering_deg`.
 [[nodiscard]] double turn_radius(double wheel_base_m, double steering_deg) noexcept;
 // The highest lift coefficient: that at the stall.
 [[nodiscard]] double highest_lift(const PlaneBody& body) noexcept;

@@ -15,7 +15,7 @@ inline constexpr std::string_view noise_names[] = {"standard", "sih", "jmavsim",
 
 struct NoiseOptions {
     double accelerometer = 0.1;  // m/s^2, 250 samples a second
-    double gyroscope = 0.005;    // rad/s, the same; at 0.01, PX4 takes a plane that stands for one that turns
+    double gyroscope = 0.005;    // rad/s, the same; at 0.01, PX4 believes that a standing plane turns
     double magnetometer = 0.02;  // gauss, along x and y, 50 samples a second
     double magnetometer_z = 0.03;
     double pressure = 1;    // Pa, of the barometer, 20 samples a second

@@ -60,7 +60,8 @@ struct TimedOrder {
 struct SimulatorOptions {
     // Of the flight clock. Protocol time-outs run in real time, but at `max_speed` by the flight clock, too.
     double speed = 1;
-    sim::FlightTime flight_end = sim::FlightTime::max();  // at `max_speed`: the vehicles do not fly on
+    // The vehicles do not fly on. At `max_speed`, or if `is_repeatable`, the simulator has then ended.
+    sim::FlightTime flight_end = sim::FlightTime::max();
     WallTime utc_at_start{};  // UTC at flight time 0; the epoch: the time at which it begins
     std::vector<TimedOrder> orders{};
     std::optional<sim::Profile> profile{};  // empty: the usual profile of each vehicle's autopilot

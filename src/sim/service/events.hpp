@@ -25,7 +25,7 @@ namespace mavloom::sim {
 
 struct EventInfo;
 
-// Of the vehicle; they change.
+// The vehicle's own times, which advance while it flies: of its last boot, of its last step, and the present one.
 struct EventTimes {
     const FlightTime &booted, &stepped;
     const Moment& now;

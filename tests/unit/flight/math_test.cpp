@@ -37,6 +37,12 @@ TEST(MathTest, SineCosineAndTangent) {
         ASSERT_LE(error_of(math::cos(x), std::cos(exact)), 2) << x;
         ASSERT_LE(error_of(math::tan(x), std::tan(exact)), 4) << x;
     });
+    for_numbers_to(1e5, [](double x) {
+        const long double exact = x;
+        ASSERT_LE(error_of(math::sin(x), std::sin(exact)), 4) << x;
+        ASSERT_LE(error_of(math::cos(x), std::cos(exact)), 4) << x;
+        ASSERT_LE(error_of(math::tan(x), std::tan(exact)), 4) << x;
+    });
 }
 
 TEST(MathTest, Arcs) {
