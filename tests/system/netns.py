@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Two machines side by side: network namespaces with a cable between them. Needs root and iproute2;
-elsewhere the tests are skipped with that reason."""
+"""Machines of their own: network namespaces. Needs root and iproute2; elsewhere the tests are skipped with that
+reason."""
 import ctypes
 import os
 import shutil
@@ -8,6 +8,7 @@ import socket
 import subprocess
 import threading
 
+import harness
 import pytest
 
 CLONE_NEWNET = 0x40000000
@@ -56,7 +57,7 @@ class Machine:
 
 
 def two_machines():
-    """A generator for a fixture: two machines whose interfaces are joined."""
+    """A generator for a fixture: two machines whose interfaces are joined by a cable."""
     if os.geteuid() != 0 or not shutil.which("ip"):
         pytest.skip("network namespaces need root and iproute2")
     machines = []
@@ -73,3 +74,17 @@ def two_machines():
     finally:
         for machine in machines:
             machine.remove()
+
+
+def alone(folder, *command):
+    """Runs a command to its end as on a machine without other programs: without rings, and with all ports free. The
+    control sockets are in `folder`. Returns what subprocess.run() does."""
+    if os.geteuid() != 0 or not shutil.which("unshare") or not shutil.which("ip"):
+        pytest.skip("a machine of its own needs root, unshare and iproute2")
+    script = 'mount -t tmpfs tmpfs /dev/shm && ip link set lo up && exec "$@"'
+    done = subprocess.run(["unshare", "--mount", "--net", "sh", "-c", script, "sh", *command],
+                          capture_output=True, text=True, timeout=2 * harness.DEFAULT_TIMEOUT_S,
+                          env=harness.environment({"MAVLOOM_RUN": str(folder)}))
+    if "unshare failed" in done.stderr or "mount" in done.stderr:
+        pytest.skip(done.stderr.strip())
+    return done

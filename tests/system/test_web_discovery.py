@@ -2,18 +2,10 @@
 """`mavloom web` without a source. Each case has a /dev/shm and a network of its own, so that it finds no other program,
 and the usual port is free."""
 import json
-import os
 import re
-import shutil
-import subprocess
 import sys
 
-import pytest
-
-import harness
-
-pytestmark = pytest.mark.skipif(os.geteuid() != 0 or not shutil.which("unshare") or not shutil.which("ip"),
-                                reason="a machine of its own needs root, unshare and iproute2")
+import netns
 
 # Runs the programs of argv[2:] and `web`, waits for a vehicle or a hop, and prints the reports and what `web` said.
 CASE = r"""
@@ -46,14 +38,7 @@ print(json.dumps({"systems": systems, "hops": {hop["name"]: hop for hop in hops}
 
 def alone(program, folder, case, *arguments):
     """Runs a script of Python in such a place."""
-    script = 'mount -t tmpfs tmpfs /dev/shm && ip link set lo up && exec "$@"'
-    done = subprocess.run(["unshare", "--mount", "--net", "sh", "-c", script, "sh", sys.executable, "-c", case, program,
-                           *arguments],
-                          capture_output=True, text=True, timeout=2 * harness.DEFAULT_TIMEOUT_S,
-                          env=harness.environment({"MAVLOOM_RUN": str(folder)}))
-    if "unshare failed" in done.stderr or "mount" in done.stderr:
-        pytest.skip(done.stderr.strip())
-    return done
+    return netns.alone(folder, sys.executable, "-c", case, program, *arguments)
 
 
 def reports_beside(program, folder, *commands):
@@ -67,7 +52,8 @@ def test_rings_and_routers_are_found(program, tmp_path):
 
     assert [s["sys"] for s in got["systems"]] == [1], got
     assert "found the ring with of process" in got["said"]
-    assert "without has no ring, so its messages are not shown: start it with --ring without" in got["said"]
+    assert ("without has no ring, so only those of its messages are shown that it sends to a program that has one: to "
+            "see all, start it with --ring without") in got["said"]
     assert "14550" not in got["said"]
     assert got["hops"]["with"]["hint"] is None and "--ring without" in got["hops"]["without"]["hint"]
     assert got["hops"]["vehicles"]["kind"] == "sim" and got["hops"]["with"]["kind"] == "router"

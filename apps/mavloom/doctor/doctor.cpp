@@ -54,10 +54,11 @@ void add_programs_before(const std::vector<endpoint::Endpoint>& sources, std::ve
 SetupResult<std::unique_ptr<Listening>> open(const Common& common, DoctorOptions& options,
                                              const dialect::Dialect& dialect) {
     const auto asked = options.sources.empty() ? Listening::Asked::no : Listening::Asked::yes;
-    auto running = find_sources(common, options.sources);
+    auto running = find_sources(common, options.sources, {usual_source, second_source});
     if (!running && running.error().code != SetupCode::in_use) return tl::unexpected(std::move(running.error()));
-    // Other programs have the ports: that is a finding.
-    if (options.sources.empty()) options.sources = {std::string(usual_source), std::string(second_source)};
+    // If another program has the first port, that is a finding.
+    if (options.sources.empty() || (asked == Listening::Asked::no && options.sources.front() == second_source))
+        options.sources = {std::string(usual_source), std::string(second_source)};
     const auto endpoints = endpoint::parse_endpoints(options.sources);
     if (!endpoints) return tl::unexpected(endpoints.error());
     if (auto checked = check_kinds(*endpoints); !checked) return tl::unexpected(std::move(checked.error()));

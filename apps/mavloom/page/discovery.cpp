@@ -55,6 +55,9 @@ std::string serial_hint() {
                        fmt::join(some, ", "), ports.front());
 }
 
+// Where messages of a program without a ring are heard, if others have one.
+constexpr std::string_view other_rings = "a program that has one";
+
 std::string ring_hint(const std::string& program, std::string_view port) {
     if (port.empty())
         return fmt::format("{0} has no ring, so its messages are not shown: start it with --ring {0}", program);
@@ -69,8 +72,9 @@ std::vector<std::string> lines_of(const Running& running, std::string_view port)
     lines.reserve(running.rings.size() + running.without_ring.size());
     for (const auto& ring : running.rings)
         lines.push_back(fmt::format("found the ring {} of process {}", ring.name, ring.writer_pid));
+    const auto where = running.rings.empty() ? port : other_rings;
     for (const auto& name : running.without_ring)
-        lines.push_back(fmt::format("found {}, and shows its counters; {}", name, ring_hint(name, port)));
+        lines.push_back(fmt::format("found {}, and shows its counters; {}", name, ring_hint(name, where)));
     return lines;
 }
 
@@ -82,33 +86,32 @@ SetupResult<void> check_port(std::string_view source) {
     return net::BindErrors(net::Transport::udp).complete(std::move(socket.error()), *address);
 }
 
-SetupResult<Running> find_sources(const Common& common, std::vector<std::string>& sources, std::string_view usual) {
+SetupResult<Running> find_sources(const Common& common, std::vector<std::string>& sources,
+                                  std::initializer_list<std::string_view> usual) {
     if (!sources.empty()) return {};
     auto running = find_running();
-    const auto port = running.rings.empty() ? check_port(usual) : SetupResult<void>();
-    const bool listens = running.rings.empty() && port;
-    for (const auto& line : lines_of(running, listens ? usual : "")) print_notice(common, line);
-    for (const auto& ring : running.rings) sources.push_back("shm://" + ring.name);
-    if (listens) {
-        print_notice(common, fmt::format("no ring is in use; listening on {}", usual));
-        sources.emplace_back(usual);
-        if (const auto hint = serial_hint(); !hint.empty()) print_notice(common, hint);
+    std::vector<std::string> ports;  // those that no other program has
+    std::optional<SetupError> first_taken;
+    for (const auto port : running.rings.empty() ? usual : std::initializer_list<std::string_view>{}) {
+        auto checked = check_port(port);
+        if (checked) ports.emplace_back(port);
+        else if (port == *usual.begin()) first_taken = std::move(checked.error());
     }
-    if (port) return running;
-    const auto why = fmt::format("no ring is in use, and {}", port.error().text);
+    for (const auto& line : lines_of(running, fmt::format("{}", fmt::join(ports, " or ")))) print_notice(common, line);
+    for (const auto& ring : running.rings) sources.push_back("shm://" + ring.name);
+    if (!running.rings.empty()) return running;
+    const auto why = first_taken ? fmt::format("no ring is in use, and {}", first_taken->text) : "no ring is in use";
+    if (!ports.empty()) {
+        print_notice(common, fmt::format("{}; listening on {}", why, fmt::join(ports, " and ")));
+        if (const auto hint = serial_hint(); !hint.empty()) print_notice(common, hint);
+        sources = std::move(ports);
+        return running;
+    }
     if (running.without_ring.empty())
-        return setup_error(port.error().code, why +
+        return setup_error(first_taken->code, why +
                                                   "; end that program, or name another source, such as "
                                                   "udpin://0.0.0.0:14551, and let the vehicle send there");
     print_notice(common, why);
-    return running;
-}
-
-SetupResult<Running> find_sources(const Common& common, std::vector<std::string>& sources) {
-    const bool are_given = !sources.empty();
-    auto running = find_sources(common, sources, usual_source);
-    if (!are_given && running && running->rings.empty() && check_port(second_source))
-        sources.emplace_back(second_source);
     return running;
 }
 
@@ -118,12 +121,13 @@ static bool is_ring_source(const std::string& source) {
 }
 
 std::vector<HopReporter::Program> programs_of(const std::vector<std::string>& sources, const Running& running) {
-    std::string ports;
+    std::string places;
     for (const auto& source : sources)
-        if (!is_ring_source(source)) ports += (ports.empty() ? "" : " or ") + source;
+        if (!is_ring_source(source)) places += (places.empty() ? "" : " or ") + source;
+    if (places.empty() && !running.rings.empty()) places = other_rings;
     std::vector<HopReporter::Program> programs;
     programs.reserve(running.without_ring.size() + sources.size());
-    for (const auto& name : running.without_ring) programs.push_back({name, ring_hint(name, ports)});
+    for (const auto& name : running.without_ring) programs.push_back({name, ring_hint(name, places)});
     for (const auto& source : sources)
         if (is_ring_source(source)) programs.push_back({endpoint::parse_endpoint(source)->path});
     return programs;

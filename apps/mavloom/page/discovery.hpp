@@ -2,6 +2,7 @@
 // Finds the rings, routers and simulators of this machine, as far as the user may read them.
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,14 +34,13 @@ struct Running {
 // none.
 [[nodiscard]] std::vector<std::string> lines_of(const Running& running, std::string_view port);
 
+// Where vehicles send to ground stations; and PX4 to companion computers.
 inline constexpr std::string_view usual_source = "udpin://0.0.0.0:14550", second_source = "udpin://0.0.0.0:14540";
 
-// Without sources: the rings of this machine; without rings, `usual`, a port. If programs without a ring run, whose
-// counters are shown in any case, a ground station may keep the port.
+// Without sources: the rings of this machine; without rings, those of the `usual` ports that are free. A ground station
+// often has the first one. If programs without a ring run, whose counters are shown in any case, all may be taken.
 [[nodiscard]] SetupResult<Running> find_sources(const Common& common, std::vector<std::string>& sources,
-                                                std::string_view usual);
-// The same for programs that also look at the port of PX4's link for companion computers, if it is free.
-[[nodiscard]] SetupResult<Running> find_sources(const Common& common, std::vector<std::string>& sources);
+                                                std::initializer_list<std::string_view> usual);
 // The error names the program, such as a ground station, that has the port of a udpin source.
 [[nodiscard]] SetupResult<void> check_port(std::string_view source);
 

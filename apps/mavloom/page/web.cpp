@@ -83,7 +83,7 @@ Exit web(const Common& common, WebOptions& options) {
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
     if (auto compiled = options.selection.compile(*dialect); !compiled) return fail(compiled.error());
-    const auto running = find_sources(common, options.receive.sources, usual_source);
+    const auto running = find_sources(common, options.receive.sources, {usual_source});
     if (!running) return fail(running.error());
     auto receiver = options.receive.open(common, *dialect);
     if (!receiver) return fail(receiver.error());

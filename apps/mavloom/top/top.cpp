@@ -55,6 +55,7 @@ public:
     LiveFeed(const Common& common, const TopOptions& options, feed::Receiver& receiver, Model& model,
              std::vector<HopReporter::Program> programs)
         : receiver_(receiver),
+          has_sources_(!options.receive.sources.empty()),
           question_(receiver),
           serving_(common,
                    {.filter = options.selection.filter,
@@ -81,11 +82,13 @@ public:
     [[nodiscard]] view::Now now() override { return {wall_now(), mono_now()}; }
     void ask(const view::RateRequest& request) override { question_.ask(request); }
     [[nodiscard]] view::RateRequest::Answer answer() override { return question_.answer(); }
-    [[nodiscard]] bool has_ended() override { return has_ended_; }
+    // Without a source, the counters of programs change until the user ends it.
+    [[nodiscard]] bool has_ended() override { return has_ended_ && has_sources_; }
     [[nodiscard]] const SetupError* error() override { return has_ended_ ? receiver_.error() : nullptr; }
 
 private:
     feed::Receiver& receiver_;
+    const bool has_sources_;
     RateQuestion question_;
     Serving serving_;
     std::optional<HopReporter> hops_;
@@ -269,7 +272,7 @@ Exit top(const Common& common, TopOptions& options) {
     }
     auto& sources = options.receive.sources;
     const bool are_given = !sources.empty();
-    const auto running = find_sources(common, sources);
+    const auto running = find_sources(common, sources, {usual_source, second_source});
     if (!running) return fail(running.error());
     const auto endpoints = endpoint::parse_endpoints(sources);
     if (!endpoints) return fail(endpoints.error());

@@ -11,12 +11,14 @@ import re
 import signal
 import socket
 import subprocess
+import sys
 import threading
 import time
 import tty
 
 import frames
 import harness
+import netns
 import pytest
 from frames import mavlink
 
@@ -653,6 +655,53 @@ def test_the_guide_has_each_finding():
 @pytest.mark.parametrize("recording", ["px4_gcs_flight.tlog", "px4_gcs_session.tlog"])
 def test_a_healthy_recording_has_no_finding(run, data, recording):
     assert ids(run("doctor", data / recording, "--json")) == set()
+
+
+# ---- without a source ------------------------------------------------------------------------------------------------
+
+# The ports of argv[2:] are taken. Prints who has them, and the doctor's output beside a simulator that has no ring.
+PORTS_TAKEN = r"""
+import json, os, socket, subprocess, sys, time
+program, ports = sys.argv[1], [int(port) for port in sys.argv[2:]]
+taken = [socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for port in ports]
+for sock, port in zip(taken, ports):
+    sock.bind(("0.0.0.0", port))
+sim = subprocess.Popen([program, "sim", "--name", "doc-sim", "-q"])
+end = time.monotonic() + 30
+while subprocess.run([program, "stat", "doc-sim"], capture_output=True).returncode and time.monotonic() < end:
+    time.sleep(0.05)
+said = [subprocess.run([program, "doctor", "--for", "1s", *more], capture_output=True, text=True)
+        for more in ([], ["--json"])]
+sim.terminate()
+sim.wait()
+print(json.dumps([os.getpid(), *({"status": done.returncode, "out": done.stdout} for done in said)]))
+"""
+
+
+@pytest.fixture
+def beside_a_simulator(program, tmp_path):
+    """The process that has these ports, the doctor's text, and its findings."""
+    def examine(*ports):
+        done = netns.alone(tmp_path, sys.executable, "-c", PORTS_TAKEN, program, *map(str, ports))
+        owner, text, report = json.loads(done.stdout)
+        assert text["status"] == report["status"] == 4, done
+        return owner, text["out"], json.loads(report["out"])["findings"]
+    return examine
+
+
+def test_the_usual_port_taken_beside_a_simulator_without_ring(beside_a_simulator):
+    """Where a vehicle sends to both ports, the other one is enough; this one sends to the first."""
+    owner, text, findings = beside_a_simulator(14550)
+    assert ("port-taken", "udpin://0.0.0.0:14550") in [(one["id"], one["source"]) for one in findings], findings
+    assert f"(process {owner})" in text, text
+
+
+def test_both_usual_ports_taken_beside_a_simulator_without_ring(beside_a_simulator):
+    owner, text, findings = beside_a_simulator(14550, 14540)
+    assert [(one["id"], one["source"]) for one in findings] == [
+        ("port-taken", f"udpin://0.0.0.0:{port}") for port in (14550, 14540)], findings
+    assert all(f"(process {owner})" in one["what"] for one in findings), findings
+    assert "Nothing was heard" not in text and "2 findings." in text, text
 
 
 # ---- is this loss real? ----------------------------------------------------------------------------------------------

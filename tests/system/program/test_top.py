@@ -4,9 +4,11 @@ import json
 import os
 import re
 import subprocess
+import sys
 
 import frames
 import harness
+import netns
 import pytest
 import terminals
 
@@ -136,6 +138,33 @@ def test_without_sources_and_rings_serial_ports_are_named(alone, program, tmp_pa
                      "'serial:///dev/ttyACM1?baud=57600'",
                      "mavloom: a vehicle may be at /dev/serial/by-id/usb-Pixhawk-if00: to read it, name the source "
                      "'serial:///dev/serial/by-id/usb-Pixhawk-if00?baud=57600'"], done
+
+
+# The ports of argv[2:] are taken, as by a ground station. Prints what `top` shows beside a simulator without a ring.
+PORTS_TAKEN = r"""
+import json, socket, subprocess, sys
+program, ports = sys.argv[1], [int(port) for port in sys.argv[2:]]
+taken = [socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for port in ports]
+for sock, port in zip(taken, ports):
+    sock.bind(("0.0.0.0", port))
+sim = subprocess.Popen([program, "sim", "--to", "udpout://127.0.0.1:14540", "--name", "top-sim"],
+                       stderr=subprocess.PIPE, text=True)
+subprocess.run([program, "ctl", "top-sim", "wait", "ready"], capture_output=True)
+done = subprocess.run([program, "top", "--once", "--for", "3s"], capture_output=True, text=True)
+sim.terminate()
+sim.communicate()
+print(json.dumps([done.returncode, done.stdout, done.stderr]))
+"""
+
+
+@pytest.mark.parametrize("ports, shown, said", [
+    ([14550], r"^   ATTITUDE +\d", r"in use by .* \(process \d+\); listening on udpin://0.0.0.0:14540$"),
+    ([14550, 14540], r"^   udpout://127.0.0.1:14540 +[\d.-]+ +[\d.-]+ +0 +[1-9]", r"in use by .* \(process \d+\)$")])
+def test_beside_a_ground_station_the_other_port_and_counters_are_shown(program, tmp_path, ports, shown, said):
+    done = netns.alone(tmp_path, sys.executable, "-c", PORTS_TAKEN, program, *map(str, ports))
+    status, out, log = json.loads(done.stdout)
+    assert status == 0 and re.search(shown, out, re.MULTILINE), (out, log)
+    assert re.search(said, log, re.MULTILINE), log
 
 
 @pytest.mark.parametrize("columns, lines", [(100, 26), (80, 24), (40, 10)])
