@@ -44,7 +44,8 @@ void draw_title(Grid& grid, int y, const Snapshot& shown, const State& state) {
     const int end = width - 1 - width_of(right);
     const auto x = grid.put(1, y, name, Ink::strong, end - 1);
     grid.put(x + 2, y, shown.title, Ink::plain, end - 2);
-    grid.put_right(width - 1, y, right, Ink::strong);
+    if (width_of(right) < width) grid.put_right(width - 1, y, right, Ink::strong);
+    else grid.put(0, y, right, Ink::strong);  // the first digits, not the last ones
     grid.reverse(y);
 }
 
@@ -121,7 +122,8 @@ void draw_tabs(Grid& grid, int y, const State& state) {
 
 std::string hints_of(const Snapshot& shown, const State& state) {
     if (state.shows_help) return "\u2191 \u2193 scroll  esc back";
-    const auto* const space = shown.playing  ? "space halt  \u2190 \u2192 seek"
+    const auto* const space = shown.playing  ? shown.playing->is_halted ? "space play  \u2190 \u2192 seek"
+                                                                        : "space halt  \u2190 \u2192 seek"
                               : state.paused ? "space go on"
                                              : "space pause";
     if (state.is_open)

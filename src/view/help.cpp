@@ -46,7 +46,8 @@ void draw_help(Grid& grid, int y, int end, bool plays, int& first) {
     std::vector<Help> lines;
     for (const auto& help : plays ? std::span<const Help>(recorded) : heard_now)
         add_lines(lines, help, text - 2, width - text);
-    for (const auto& help : live) add_lines(lines, help, text - 2, width - text);
+    for (const auto& help : live)
+        if (!plays || help.keys != "space") add_lines(lines, help, text - 2, width - text);  // it halts a recording
     first = std::clamp(first, 0, std::max(0, static_cast<int>(lines.size()) - (end - y)));
     for (auto at = static_cast<std::size_t>(first); at < lines.size() && y < end; ++at, ++y) {
         grid.put(1, y, lines[at].keys, Ink::accent);

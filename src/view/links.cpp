@@ -16,28 +16,45 @@ constexpr std::array kinds{"source", "router", "simulator", "listener", "relay",
 constexpr std::array<int, 6> link_ends{44, 52, 60, 69, 78, 85};
 constexpr std::array<std::string_view, 6> titles{"LINK", "HZ IN", "HZ OUT", "IN", "OUT", "QUEUE"};
 
-// A program, a link of it, or frames that either of them lost.
+constexpr int of_program = 3, of_link = 5;  // where lines begin that stand below a program or a link
+
+// A program, a link of it, frames that either of them lost, or a note about it.
 struct LinkLine {
     const observe::Hop* hop = nullptr;
     const observe::HopLink* link = nullptr;
     const observe::NamedCount* loss = nullptr;
-    bool is_hint = false;
+    std::string note{};
 };
 
-void add_losses(std::vector<LinkLine>& lines, const LinkLine& of, const std::vector<observe::NamedCount>& losses) {
+void add_losses(std::vector<LinkLine>& lines, const observe::Hop& hop, const observe::HopLink* link,
+                const std::vector<observe::NamedCount>& losses) {
     for (const auto& loss : losses)
-        if (loss.count != 0) lines.push_back({of.hop, of.link, &loss});
+        if (loss.count != 0) lines.push_back({&hop, link, &loss});
 }
 
-std::vector<LinkLine> lines_of_hops(const std::vector<observe::Hop>& hops) {
+// Breaks the hint of a program at blanks.
+void add_hint(std::vector<LinkLine>& lines, const observe::Hop& hop, int width) {
+    for (std::string_view rest = hop.hint; !rest.empty();)
+        lines.push_back({.hop = &hop, .note = std::string(take_words(rest, width - of_program))});
+}
+
+void add_refused(std::vector<LinkLine>& lines, const observe::Hop& hop, const observe::HopLink& link) {
+    if (link.refused == 0) return;
+    lines.push_back({.hop = &hop,
+                     .link = &link,
+                     .note = fmt::format("{} refused: no program listened at its port", count_text(link.refused))});
+}
+
+std::vector<LinkLine> lines_of_hops(const std::vector<observe::Hop>& hops, int width) {
     std::vector<LinkLine> lines;
     for (const auto& hop : hops) {
         lines.push_back({&hop});
-        if (!hop.hint.empty()) lines.push_back({.hop = &hop, .is_hint = true});
-        add_losses(lines, lines.back(), hop.losses);
+        add_hint(lines, hop, width);
+        add_losses(lines, hop, nullptr, hop.losses);
         for (const auto& link : hop.links) {
             lines.push_back({&hop, &link});
-            add_losses(lines, lines.back(), link.losses);
+            add_losses(lines, hop, &link, link.losses);
+            add_refused(lines, hop, link);
         }
     }
     return lines;
@@ -45,7 +62,7 @@ std::vector<LinkLine> lines_of_hops(const std::vector<observe::Hop>& hops) {
 
 class LinkTable : public Table {
 public:
-    explicit LinkTable(const Snapshot& shown) : lines_(lines_of_hops(shown.hops)) {}
+    LinkTable(const Snapshot& shown, int width) : lines_(lines_of_hops(shown.hops, width)) {}
 
     [[nodiscard]] int size() const override { return static_cast<int>(lines_.size()); }
     void draw_head(Grid& grid, int y) const override {
@@ -55,7 +72,8 @@ public:
     void draw_line(Grid& grid, int y, int line) const override {
         const auto& its = lines_[static_cast<std::size_t>(line)];
         if (its.loss != nullptr) return draw_loss(grid, y, its);
-        if (its.is_hint) return void(grid.put(3, y, its.hop->hint, Ink::warning));
+        if (!its.note.empty())
+            return void(grid.put(its.link == nullptr ? of_program : of_link, y, its.note, Ink::warning));
         if (its.link != nullptr) return draw_flow(grid, y, 3, its.link->name, *its.link, Ink::plain);
         const auto kind = kinds[static_cast<std::size_t>(its.hop->kind)];
         draw_flow(grid, y, 1, fmt::format("{} {}", kind, its.hop->name), *its.hop, Ink::accent);
@@ -68,7 +86,7 @@ private:
     }
 
     static void draw_loss(Grid& grid, int y, const LinkLine& its) {
-        const int x = its.link == nullptr ? 3 : 5;
+        const int x = its.link == nullptr ? of_program : of_link;
         const auto end = grid.put(x, y, fmt::format("{} {}", count_text(its.loss->count), its.loss->name), Ink::bad);
         grid.put(end, y, its.loss->help.empty() ? "" : ": " + its.loss->help, Ink::dim);
     }
@@ -104,6 +122,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Table> link_table(const Snapshot& shown) { return std::make_unique<LinkTable>(shown); }
+std::unique_ptr<Table> link_table(const Snapshot& shown, int width) {
+    return std::make_unique<LinkTable>(shown, width);
+}
 
 }  // namespace mavloom::view

@@ -31,7 +31,7 @@ std::unique_ptr<Table> make_table(Tab tab, const Snapshot& shown, const State& s
     switch (tab) {
         case Tab::messages: return message_table(shown, state, width);
         case Tab::vehicles: return vehicle_table(shown, width);
-        case Tab::links: return link_table(shown);
+        case Tab::links: return link_table(shown, width);
         case Tab::routes: return route_table(shown, width);
         case Tab::alarms: break;
     }

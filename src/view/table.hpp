@@ -23,7 +23,7 @@ public:
 [[nodiscard]] std::unique_ptr<Table> make_table(Tab tab, const Snapshot& shown, const State& state, int width);
 [[nodiscard]] std::unique_ptr<Table> message_table(const Snapshot& shown, const State& state, int width);
 [[nodiscard]] std::unique_ptr<Table> vehicle_table(const Snapshot& shown, int width);
-[[nodiscard]] std::unique_ptr<Table> link_table(const Snapshot& shown);
+[[nodiscard]] std::unique_ptr<Table> link_table(const Snapshot& shown, int width);
 [[nodiscard]] std::unique_ptr<Table> route_table(const Snapshot& shown, int width);
 [[nodiscard]] std::unique_ptr<Table> alarm_table(const Snapshot& shown, int width);
 

@@ -278,6 +278,43 @@ TEST_F(DrawTest, ALinkShowsHowFullItsQueueIs) {
               " tab next view  space pause  ? help  q quit\n");
 }
 
+TEST_F(DrawTest, AProgramsHintIsReadInFortyColumns) {
+    auto shown = taken();
+    const observe::HopLink tablet{.name = "tablet", .losses = {{"queue_age", 7, ""}, {"queue_bytes", 3, ""}}};
+    const std::string hint = "px4 has no ring: to see all, start it with --ring px4";
+    shown->hops = {{.name = "px4", .losses = {{"gaps", 1, ""}}, .links = {tablet}, .hint = hint}};
+    type(U"3");
+    EXPECT_THAT(draw(*shown, state, {40, 20}, Glyphs::ascii).text(),
+                HasSubstr("   px4 has no ring: to see all, start it\n   with --ring px4\n   1 gaps\n   tablet"));
+    const auto text = whole_text(*shown, 40, Glyphs::ascii);
+    EXPECT_THAT(text, HasSubstr("start it\n   with --ring px4\n   1 gaps\n"));
+    EXPECT_THAT(text, HasSubstr("     7 queue_age\n     3 queue_bytes\n"));
+}
+
+TEST_F(DrawTest, ALinkToAClosedPortStatesWhyItSendsNothing) {
+    auto shown = taken();
+    shown->hops = {{.name = "router", .links = {{.name = "tablet", .refused = 12}}}};
+    type(U"3");
+    EXPECT_THAT(draw(*shown, state, {80, 9}, Glyphs::ascii).text(),
+                HasSubstr("\n     12 refused: no program listened at its port\n"));
+}
+
+TEST_F(DrawTest, ATerminalOfFiveColumnsShowsTheFirstDigitsOfTheRate) {
+    auto shown = taken();
+    shown->hz = 184.4;
+    EXPECT_EQ(draw(*shown, state, {5, 5}, Glyphs::ascii).text().substr(0, 6), "184.4\n");
+}
+
+TEST_F(DrawTest, InARecordingSpaceHasOneMeaning) {
+    auto shown = taken();
+    shown->playing = Playing{.is_halted = true};
+    EXPECT_THAT(draw(*shown, state, {80, 24}, Glyphs::ascii).text(), HasSubstr("  space play  "));
+    type(U"?");
+    const auto help = draw(*shown, state, {80, 30}, Glyphs::ascii).text();
+    EXPECT_THAT(help, HasSubstr(" space                   halt the recording"));
+    EXPECT_THAT(help, Not(HasSubstr("the picture stands still")));
+}
+
 TEST_F(DrawTest, WhileNothingIsHeardHintsAreShown) {
     auto shown = taken();
     shown->hints = {"reading udpin://0.0.0.0:14550", "a vehicle may be at /dev/ttyACM0: to read it, name the source"};
