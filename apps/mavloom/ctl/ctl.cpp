@@ -218,6 +218,14 @@ Exit print_answer(const CtlOptions& options, const Lines& lines) {
     return print_at_end(text_of(options, lines), Exit::done);
 }
 
+// `land` is sent as `mode`, and `wait` as `state`. A router has neither, and refuses what the user did not type.
+SetupError as_typed(SetupError error, const CtlOptions& options, const Json& request) {
+    const auto sent = fmt::format("there is no command {};", in_quotes(request.value("cmd", "")));
+    if (error.text.starts_with(sent))
+        error.text.replace(0, sent.size(), fmt::format("there is no command {};", in_quotes(options.action)));
+    return error;
+}
+
 Exit wait(const CtlOptions& options) {
     const auto limit = endpoint::parse_duration(options.limit.empty() ? "60s" : options.limit);
     if (!limit) return fail(SetupError(limit.error()).within("--for"));
@@ -230,7 +238,7 @@ Exit wait(const CtlOptions& options) {
     if (options.arguments.empty())
         return fail(Exit::wrong_use, std::ranges::find(actions(), "wait", &Action::name)->missing);
     const auto lines = wait_for_state(options.arguments, *limit, [&] { return ask(options.name, *request); });
-    return lines ? print_answer(options, *lines) : fail(lines.error());
+    return lines ? print_answer(options, *lines) : fail(as_typed(lines.error(), options, *request));
 }
 
 Exit ctl(const CtlOptions& options) {
@@ -238,7 +246,7 @@ Exit ctl(const CtlOptions& options) {
     const auto request = request_of(options);
     if (!request) return fail(request.error());
     const auto lines = ask(options.name, *request);
-    return lines ? print_answer(options, *lines) : fail(lines.error());
+    return lines ? print_answer(options, *lines) : fail(as_typed(lines.error(), options, *request));
 }
 
 }  // namespace

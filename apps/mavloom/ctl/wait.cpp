@@ -56,6 +56,23 @@ bool holds_for_all(const std::vector<std::string>& lines, const Condition& condi
     });
 }
 
+// "vehicle 1: Hold, armed, in_air, 8.6 m above home". A simulator for PX4 has `state` in place of the mode.
+std::string brief_state(const std::string& line) {
+    const auto o = Json::parse(line, nullptr, false);
+    if (!o.is_object()) return line;
+    auto text = fmt::format("vehicle {}: {}, {}", o.value("system", 0), o.value("mode", o.value("state", "")),
+                            o.value("armed", false) ? "armed" : "disarmed");
+    if (const auto landed = o.value("landed_state", ""); !landed.empty()) text += ", " + landed;
+    return text + fmt::format("{}, {:.1f} m above home", o.value("ready", true) ? "" : ", not ready",
+                              o.value("relative_alt_m", 0.0));
+}
+
+std::string brief_states(const std::vector<std::string>& lines) {
+    std::string text;
+    for (const auto& line : lines) text += (text.empty() ? "" : "; ") + brief_state(line);
+    return text;
+}
+
 bool is_flown_by_px4(const std::vector<std::string>& lines) {
     return std::ranges::any_of(lines, [](const std::string& line) {
         const auto object = Json::parse(line, nullptr, false);
@@ -77,10 +94,10 @@ SetupResult<std::vector<std::string>> wait_for_state(const std::vector<std::stri
                                "armed, disarmed, landed and alt can be waited for");
         if (!lines || holds_for_all(*lines, *condition)) return lines;
         if (mono_now() >= end)
-            return setup_error(SetupCode::unreachable,
-                               fmt::format("waited {:.1f} s for {}; the vehicles are not there yet: {}",
-                                           std::chrono::duration<double>(limit).count(), fmt::join(words, " "),
-                                           fmt::join(*lines, " ")));
+            return setup_error(
+                SetupCode::unreachable,
+                fmt::format("waited {:.1f} s for {}; the vehicles are not there yet: {}",
+                            std::chrono::duration<double>(limit).count(), fmt::join(words, " "), brief_states(*lines)));
         std::this_thread::sleep_for(between_questions);
     }
 }

@@ -75,6 +75,19 @@ def test_the_flight_clock_is_a_table_too(ctl, names):
     assert re.match(r"sim: up \d+ s, flight clock at \d+\.\d s \(paused\), ", lines(ctl(names[1], "stats"))[0])
 
 
+def test_what_a_router_refuses_is_named_as_it_was_typed(run, names):
+    for typed in (["land"], ["rtl"], ["wait", "landed"]):
+        done = run("ctl", names[0], *typed)
+        assert done.status == 1 and f"there is no command '{typed[0]}'; there are links, " in done.stderr, done
+
+
+def test_a_wait_in_vain_states_where_the_vehicles_are(run, names):
+    done = run("ctl", names[1], "wait", "alt", "100", "--for", "100ms")
+    assert done.status == 1, done
+    assert re.search(r"not there yet: vehicle 1: Hold, disarmed, on_ground(, not ready)?, -?0\.\d m above home$",
+                     done.stderr, re.MULTILINE), done
+
+
 def test_an_empty_answer_is_a_sentence(ctl, spawn, run, udp_port):
     name = f"ctl-empty-{os.getpid()}"
     spawn("route", f"udpin://127.0.0.1:{udp_port()}", "--name", name)
