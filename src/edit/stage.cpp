@@ -21,6 +21,7 @@ public:
 
     Outcome forward(const wire::FrameView& frame, WallTime received, WallTime now) noexcept {
         counters_.frames.add();
+        counters_.bytes.add(frame.size());
         if (!filter_.admits(frame)) return dropped(Verdict::filtered, counters_.filtered);
         if (!plan_.limiter.admit(frame, received)) return dropped(Verdict::rate_limited, counters_.rate_limited);
         auto draft = Draft::of(frame, dialect_->find(frame.id()));

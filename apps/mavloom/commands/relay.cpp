@@ -83,10 +83,9 @@ private:
 
     void show_progress() {
         if (!progress_.is_due()) return;
-        feed::Totals totals;
-        sources_.add_to(totals);
         const auto part = sources_.are_recordings() ? part_read(sources_) : part_of_time(begin_, end_);
-        progress_.show({.frames = stage_.counters().frames.value(), .bytes = totals.bytes, .part = part});
+        const auto& counters = stage_.counters();
+        progress_.show({.frames = counters.frames.value(), .bytes = counters.bytes.value(), .part = part});
     }
 
     const Common& common_;

@@ -44,6 +44,7 @@ struct Options {
 // `signature_removed` if it loses its signature, and nowhere else.
 struct Counters {
     Counter frames;            // input frames, forward direction
+    Counter bytes;             // of these frames
     Counter reencoded;         // decoded and encoded again
     Counter rewrapped;         // new header, original payload: the definition is missing or does not cover the payload
     Counter passed_untouched;  // forwarded as it came: unknown id, signed, or encoded in an unusual way
