@@ -19,6 +19,8 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t doctor_buffer_bytes = 64u << 20, max_heard_links = 4096;
 constexpr auto tick_interval = 500ms;
+// A router tries a closed port again after a second, and its counters are up to half a second old.
+constexpr auto settling_time = 2s;
 constexpr int frames_between_ticks = 512;
 
 observe::Listened::Kind kind_of(const endpoint::Endpoint& endpoint) {
@@ -101,6 +103,7 @@ void Listening::run(Nanoseconds time) {
     hops_before_ = hops();
     const auto begin = mono_now();
     const auto end = are_recordings_ ? MonoTime::max() : begin + time;
+    const auto settled_at = begin + settling_time;
     receiver_->start(end);
     while (receiver_->wait()) {
         const Instant now{wall_now(), mono_now()};
@@ -108,6 +111,7 @@ void Listening::run(Nanoseconds time) {
         if (now.mono < tick_at_) continue;
         tick_at_ = now.mono + tick_interval;
         tick(examined_until);
+        if (hops_settled_.empty() && now.mono >= settled_at) hops_settled_ = hops();
         show_progress(progress, now.mono, end);
     }
     receiver_->join();
@@ -245,6 +249,7 @@ observe::Evidence Listening::evidence() {
     for (const auto& source : sources_) add_heard(evidence, *source);
     evidence.links = links_;
     evidence.hops_before = hops_before_;
+    evidence.hops_settled = hops_settled_;
     evidence.hops_after = hops();
     const bool are_asked = std::ranges::all_of(evidence.sources, &observe::Listened::is_asked);
     for (std::size_t i = 0; are_asked && i + 1 < sources_.size(); ++i)

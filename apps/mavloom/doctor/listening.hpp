@@ -84,7 +84,7 @@ private:
     std::vector<observe::HeardLink> links_;
     LinkId last_link_{};
     OfSource* last_source_ = nullptr;
-    std::vector<observe::Hop> hops_before_;
+    std::vector<observe::Hop> hops_before_, hops_settled_;
     Nanoseconds listened_{};
     MonoTime tick_at_{};
     std::uint64_t total_bytes_ = 0;  // of the recordings

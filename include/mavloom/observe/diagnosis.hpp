@@ -103,7 +103,9 @@ struct Evidence {
     // Between a source and the next one; for one source nothing.
     std::vector<std::vector<Passage>> passages{};
     std::vector<Hop> hops_before{}, hops_after{};  // at the begin and at the end
-    std::uint64_t buffer_full = 0;                 // frames that this program was too slow for
+    // When programs had time to notice that ports are open now; empty if it was not listened for so long.
+    std::vector<Hop> hops_settled{};
+    std::uint64_t buffer_full = 0;  // frames that this program was too slow for
 
     // Null, empty, or 0 if there is none.
     [[nodiscard]] const HeardLink* link(LinkId id) const noexcept;

@@ -152,6 +152,13 @@ bool is_ours(const Evidence& evidence, std::string_view link) {
     });
 }
 
+// A program on this machine, or we, opened the port meanwhile.
+bool is_open_by_now(const Evidence& evidence, const Hop& hop, const HopLink& before, const HopLink& link) {
+    if (grown(before.frames_out, link.frames_out) == 0) return false;
+    const auto settled = std::ranges::find(evidence.hops_settled, hop.name, &Hop::name);
+    return settled != evidence.hops_settled.end() && link_before(*settled, link).refused == link.refused;
+}
+
 void find_link_losses(const Evidence& evidence, const Hop& hop, const HopLink& before, const HopLink& link,
                       Findings& findings) {
     constexpr std::array<std::string_view, 3> kinds{"queue_bytes", "queue_age", "frames_not_sent"};
@@ -162,7 +169,8 @@ void find_link_losses(const Evidence& evidence, const Hop& hop, const HopLink& b
     }
     if (const auto counts = injected(before, link); !counts.empty())
         findings.push_back(words::faults_on(hop, link, counts));
-    if (const auto more = grown(before.refused, link.refused); more != 0 && !is_ours(evidence, link.name))
+    if (const auto more = grown(before.refused, link.refused);
+        more != 0 && !is_ours(evidence, link.name) && !is_open_by_now(evidence, hop, before, link))
         findings.push_back(words::port_refused(hop, link, more));
 }
 

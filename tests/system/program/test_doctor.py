@@ -438,6 +438,15 @@ def healthy_router(world):
     return [ring, f"udpin://127.0.0.1:{port}"]
 
 
+def healthy_named_link(world):
+    """The name of the link does not show that it leads to the port that the doctor opens."""
+    to, port = world.port(), world.port()
+    _, ring = world.router("named", f"udpin://127.0.0.1:{to}", f"udpout://127.0.0.1:{port}?name=station")
+    sock, vehicle = world.udp_to(to), Vehicle()
+    world.repeat(lambda n: sock.send(vehicle.next()))
+    return [ring, f"udpin://127.0.0.1:{port}"]
+
+
 PLANTED = {
     plant_nothing_heard: "nothing-heard",
     plant_port_taken: "port-taken",
@@ -475,11 +484,14 @@ PLANTED = {
     plant_two_simulators: "two-senders",
     healthy_simulator: None,
     healthy_router: None,
+    healthy_named_link: None,
 }
 
 
-# Regular gaps are judged by half seconds, a vehicle is silent after 5 s, and SYSTEM_TIME comes once a second.
-LISTENS = {plant_regular_gaps: "5500ms", plant_went_silent: "8500ms", plant_two_simulators_together: "5500ms"}
+# Regular gaps are judged by half seconds, a vehicle is silent after 5 s, SYSTEM_TIME comes once a second, and a port
+# that was closed is open if nothing is refused after 2 s.
+LISTENS = {plant_regular_gaps: "5500ms", plant_went_silent: "8500ms", plant_two_simulators_together: "5500ms",
+           healthy_named_link: "5500ms"}
 
 
 def test_each_planted_fault_has_its_finding(spawn, tmp_path):

@@ -250,6 +250,19 @@ TEST_F(DiagnosisTest, OnlyLossesThatGrowAreFound) {
     EXPECT_THAT(ids(evidence), ElementsAre("queue-drop", "port-refused"));
 }
 
+// The doctor itself may have opened it, and a link with a name does not show its port.
+TEST_F(DiagnosisTest, APortThatWasOpenedMeanwhileIsNotClosed) {
+    evidence.hops_before = {{.name = "router", .links = {{.name = "tablet", .frames_out = 100, .refused = 5}}}};
+    evidence.hops_settled = evidence.hops_after = evidence.hops_before;
+    auto &settled = evidence.hops_settled.front().links.front(), &after = evidence.hops_after.front().links.front();
+    settled.refused = after.refused = 95;
+    EXPECT_THAT(ids(evidence), ElementsAre("port-refused")) << "nothing was sent since";
+    after.frames_out = 900;
+    EXPECT_THAT(ids(evidence), IsEmpty());
+    after.refused = 96;
+    EXPECT_THAT(ids(evidence), ElementsAre("port-refused")) << "it is closed again";
+}
+
 TEST_F(DiagnosisTest, TheCountsOfALinkThatClosedAreOld) {
     evidence.hops_before = {{.name = "router", .links = {{.name = "closed links", .is_sum = true}}}};
     evidence.hops_after = evidence.hops_before;
