@@ -103,12 +103,14 @@ def check_life(root, packages):
     assert inside("env", "-u", "PYTHONDONTWRITEBYTECODE", "python3", "-c",
                   "import mavloom; print(mavloom.messages.ATTITUDE.__name__)") == "ATTITUDE\n"
     assert re.search(r"^mavloom:", (root / "etc/passwd").read_text(), re.MULTILINE), "the router's user"
+    (root / "etc/mavloom/router.toml").write_text('[[endpoint]]\nurl = "tcpin://0.0.0.0:5760"\n')  # as the guide does
+    inside("mavloom", "check", "/etc/mavloom/router.toml")
     with forwarding_router("chroot", root, "mavloom") as (router, check):
         check(1)
         install()
         assert pathlib.Path(f"/proc/{router.pid}/exe").readlink().name == "mavloom (deleted)"
         check(2)
-    assert files_of(root)
+    assert {"etc/mavloom", "usr/bin/mavloom"} <= files_of(root)
     inside("dpkg", "--purge", "python3-mavloom", "mavloom")
     assert not files_of(root)
 
