@@ -100,6 +100,7 @@ SetupResult<Running> find_sources(const Common& common, std::vector<std::string>
     for (const auto& line : lines_of(running, fmt::format("{}", fmt::join(ports, " or ")))) print_notice(common, line);
     for (const auto& ring : running.rings) sources.push_back("shm://" + ring.name);
     if (!running.rings.empty()) return running;
+    if (first_taken) running.port_taken = first_taken->text;
     const auto why = first_taken ? fmt::format("no ring is in use, and {}", first_taken->text) : "no ring is in use";
     if (!ports.empty()) {
         print_notice(common, fmt::format("{}; listening on {}", why, fmt::join(ports, " and ")));

@@ -16,6 +16,7 @@ namespace mavloom::app {
 struct Running {
     std::vector<shm::RingStatus> rings;     // that a program writes to
     std::vector<std::string> without_ring;  // routers and simulators
+    std::string port_taken;                 // which program has the usual port; empty: none, or there are rings
 };
 
 [[nodiscard]] Running find_running();

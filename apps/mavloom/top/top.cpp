@@ -223,10 +223,11 @@ std::string title_of(const std::vector<std::string>& sources) {
 }
 
 // For a user who gave no source. A small screen has no room for the last ones.
-std::vector<std::string> hints_for(const std::vector<std::string>& sources) {
+std::vector<std::string> hints_for(const std::vector<std::string>& sources, const Running& running) {
     std::vector<std::string> hints;
+    if (!running.port_taken.empty()) hints.push_back(running.port_taken);
     if (auto serial = serial_hint(); !serial.empty()) hints.push_back(std::move(serial));
-    hints.push_back(fmt::format("reading {}", fmt::join(sources, ", ")));
+    if (!sources.empty()) hints.push_back(fmt::format("reading {}", fmt::join(sources, ", ")));
     hints.emplace_back("what else to check: docs/guide/troubleshooting.md");
     return hints;
 }
@@ -277,7 +278,7 @@ Exit top(const Common& common, TopOptions& options) {
     const auto endpoints = endpoint::parse_endpoints(sources);
     if (!endpoints) return fail(endpoints.error());
     Model model(*dialect, title_of(sources));
-    if (!are_given) model.set_hints(hints_for(sources));
+    if (!are_given) model.set_hints(hints_for(sources, *running));
     if (const auto* const recording = recording_of(*endpoints))
         return show_recording(options, *dialect, recording->path, model);
     return show_live(common, options, *dialect, programs_of(sources, *running), model);

@@ -176,3 +176,17 @@ def test_an_empty_screen_names_the_serial_ports(alone, program, tmp_path, column
         assert "a vehicle may be at /dev/ttyACM1, /dev/ttyUSB0: to read it, name the source" in shown, terminal.shown()
         terminal.type("q")
         terminal.wait_for("^ended with 0")
+
+
+def test_an_empty_screen_names_the_program_that_has_the_usual_port(alone, program, tmp_path):
+    keep = "import socket, time; s = socket.socket(2, 2); s.bind(('0.0.0.0', 14550)); time.sleep(600)"
+    command = alone(f'{sys.executable} -c "{keep}" & keeper=$!; trap "kill $keeper" EXIT',
+                    "until grep -q :38D6 /proc/net/udp; do sleep 0.1; done", f"MAVLOOM_RUN={tmp_path} {program} top")
+    with terminals.opened(tmp_path, *command[:2]) as start:
+        terminal = start(*command[2:])
+        terminal.wait_for(r"nothing to show")
+        shown = re.sub(r"\s+", " ", terminal.shown())
+        assert re.search(r"UDP 0.0.0.0:14550: Address already in use by \w+.* \(process \d+\)", shown), shown
+        assert "reading udpin://0.0.0.0:14540" in shown, shown
+        terminal.type("q")
+        terminal.wait_for("^ended with 0")
