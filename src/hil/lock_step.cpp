@@ -24,7 +24,7 @@ void LockStep::begin(MonoTime now) noexcept {
     newest_answer_ = {};
     is_answered_ = true;
     is_measuring_ = false;
-    in_row_ = 0;
+    missed_ = in_row_ = 0;
     due_ = heard_ = now;
     flies_by_own_clock_ = has_own_clock_;
 }
@@ -63,7 +63,7 @@ Nanoseconds LockStep::pace() const noexcept {
 void LockStep::count_unanswered(MonoTime now) noexcept {
     if (state_ == State::booting) return;
     ++counters_.unanswered;
-    if (++in_row_ >= most_in_row && state_ == State::lock_step) lose(now);
+    if (++missed_ >= most_missed && state_ == State::lock_step) lose(now);
 }
 
 void LockStep::lose(MonoTime now) noexcept {
@@ -91,13 +91,19 @@ Answer LockStep::answer(std::uint64_t time_us, bool knows_lock_step, MonoTime no
     }
     count(answer);
     if (answer != Answer::in_time && answer != Answer::late) return answer;
-    newest_answer_ = time_us;
+    note_row(time_us);
     if (answer == Answer::in_time) accept(now);
-    if (state_ == State::lost) {
-        state_ = State::lock_step;
-        in_row_ = 0;
-    }
     return answer;
+}
+
+// An autopilot that answers each step late is not lost, but one that answers every fourth step is.
+void LockStep::note_row(std::uint64_t time_us) noexcept {
+    const bool follows = time_us == newest_answer_ + wire_time(step_);
+    in_row_ = follows ? in_row_ + 1 : 1;
+    newest_answer_ = time_us;
+    if (in_row_ < enough_in_row) return;
+    missed_ = 0;
+    if (state_ == State::lost) state_ = State::lock_step;
 }
 
 void LockStep::count(Answer answer) noexcept {
@@ -123,7 +129,6 @@ void LockStep::leave_boot(Answer answer, bool knows_lock_step) noexcept {
 
 void LockStep::accept(MonoTime now) noexcept {
     is_answered_ = true;
-    in_row_ = 0;
     ++counters_.answered;
     answer_times_.add(now - sent_);
 }

@@ -5,7 +5,8 @@
 // The times of the steps are the autopilot's clock, so no time is ever repeated, and none goes back, even if the
 // autopilot is started again. An autopilot that is booting does not answer: steps then come in real time. From its
 // first answer on, each step waits for the answer to the one before, but for no longer than `answer_limit`. After
-// `most_in_row` steps without an answer they come in real time again.
+// `most_missed` steps without an answer they come in real time again, until `enough_in_row` steps in a row are
+// answered. That many answers in a row also make up for earlier steps without one.
 //
 // Plain values; reads no clock. Single owner; nothing allocates.
 #pragma once
@@ -59,7 +60,7 @@ struct StepCounters {
 class LockStep {
 public:
     static constexpr Nanoseconds answer_limit = std::chrono::seconds{1};
-    static constexpr unsigned most_in_row = 10;
+    static constexpr unsigned most_missed = 10, enough_in_row = 10;
 
     // `speed`: of the flight, relative to real time; `any_speed`. `has_own_clock`: a board, which flies in real time.
     LockStep(Nanoseconds step, double speed, bool has_own_clock) noexcept;
@@ -103,6 +104,7 @@ private:
     void count(Answer answer) noexcept;
     [[nodiscard]] Answer judge(std::uint64_t time_us) const noexcept;
     void leave_boot(Answer answer, bool knows_lock_step) noexcept;
+    void note_row(std::uint64_t time_us) noexcept;
     void accept(MonoTime now) noexcept;
 
     const Nanoseconds step_;
@@ -113,7 +115,8 @@ private:
     std::uint64_t newest_answer_ = 0;  // the time of the newest step that was answered
     bool is_answered_ = true, is_paused_ = false, is_measuring_ = false, flies_by_own_clock_ = false;
     MonoTime sent_{}, due_{}, heard_{};
-    unsigned in_row_ = 0;
+    unsigned missed_ = 0;  // steps without an answer since the last row of enough answers
+    unsigned in_row_ = 0;  // answers to steps that follow each other
     std::uint64_t allowed_ = 0;
     FlightTime measured_flight_{};
     Nanoseconds measured_real_{};

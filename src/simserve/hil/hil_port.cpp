@@ -148,10 +148,11 @@ void HilPort::note_state() {
         say(LogLevel::warning, "has sent no HIL_ACTUATOR_CONTROLS for some seconds; the motors keep the last ones");
     if (state_ == State::lost && !std::exchange(said_lost_, true))
         say(LogLevel::warning,
-            fmt::format("no answer to {} steps in a row, so steps come in real time until there is one. An autopilot "
-                        "does not answer if it was stopped, if its gyroscope failed, or if sensors come more often "
-                        "than its parameter IMU_INTEG_RATE",
-                        hil::LockStep::most_in_row));
+            fmt::format(
+                "no answer to {} steps, so steps come in real time until {} in a row are answered. An autopilot "
+                "does not answer if it was stopped, if its gyroscope or accelerometer failed, or if sensors "
+                "come more often than its parameter IMU_INTEG_RATE",
+                hil::LockStep::most_missed, hil::LockStep::enough_in_row));
     const bool is_back = before == State::lost && (state_ == State::lock_step || state_ == State::real_time);
     if (is_back && !std::exchange(said_back_, true))
         say(LogLevel::info, state_ == State::lock_step ? "answers again: lock-step" : "sends again");

@@ -108,7 +108,7 @@ TEST_F(LockStepTest, NoTimeIsRepeatedAndNoneGoesBack) {
 
 TEST_F(LockStepTest, ASilentAutopilotIsWaitedForOneSecondAStepThenPaced) {
     boot();
-    for (unsigned i = 0; i < LockStep::most_in_row; ++i) {
+    for (unsigned i = 0; i < LockStep::most_missed; ++i) {
         step();
         EXPECT_EQ(clock.state(), State::lock_step);
     }
@@ -123,8 +123,42 @@ TEST_F(LockStepTest, ASilentAutopilotIsWaitedForOneSecondAStepThenPaced) {
     EXPECT_EQ(now - lost, 1s);
     EXPECT_EQ(clock.counters().unanswered, 260u);
     EXPECT_EQ(answer(clock.time()), Answer::in_time);
+    for (unsigned i = 1; i < LockStep::enough_in_row; ++i) {
+        EXPECT_EQ(clock.state(), State::lost);
+        EXPECT_EQ(answer(step()), Answer::in_time);
+    }
     EXPECT_EQ(clock.state(), State::lock_step);
     EXPECT_LE(clock.due(), now + 4ms);
+}
+
+// As PX4 without accelerometer, which would otherwise fly at a hundredth of real time.
+TEST_F(LockStepTest, AnAutopilotThatAnswersEveryFourthStepIsPaced) {
+    boot();
+    const auto fly = [&](int steps) {
+        for (int i = 0; i < steps; ++i) {
+            const FlightTime time = step();
+            if (i % 4 == 0) answer(time);
+        }
+    };
+    fly(20);
+    EXPECT_EQ(clock.state(), State::lost);
+    EXPECT_LE(now - booted, 10'100ms);
+    const MonoTime lost = now;
+    fly(250);
+    EXPECT_EQ(clock.state(), State::lost);
+    EXPECT_EQ(now - lost, 1s);
+    EXPECT_EQ(clock.counters().losses, 1u);
+}
+
+TEST_F(LockStepTest, SingleStepsWithoutAnAnswerAreNoLoss) {
+    boot();
+    for (int i = 0; i < 1000; ++i) {
+        const FlightTime time = step();
+        if (i % 20 != 0) answer(time);
+    }
+    EXPECT_EQ(clock.state(), State::lock_step);
+    EXPECT_EQ(clock.counters().unanswered, 50u);
+    EXPECT_EQ(clock.counters().losses, 0u);
 }
 
 TEST_F(LockStepTest, ASlowAutopilotsLateAnswerCounts) {
@@ -138,13 +172,17 @@ TEST_F(LockStepTest, ASlowAutopilotsLateAnswerCounts) {
     EXPECT_EQ(clock.counters().unanswered, 1u);
 }
 
-TEST_F(LockStepTest, ALostAutopilotThatAnswersAnOldStepIsWaitedForAgain) {
+TEST_F(LockStepTest, ALostAutopilotThatAnswersEachStepLateIsWaitedForAgain) {
     boot();
-    FlightTime old{};
-    for (int i = 0; i < 20; ++i) old = step();
-    step();
+    for (int i = 0; i < 20; ++i) step();
     ASSERT_EQ(clock.state(), State::lost);
-    EXPECT_EQ(answer(old), Answer::late);
+    FlightTime old = step();
+    for (unsigned i = 0; i < LockStep::enough_in_row; ++i) {
+        EXPECT_EQ(clock.state(), State::lost);
+        const FlightTime next = step();
+        EXPECT_EQ(answer(old), Answer::late);
+        old = next;
+    }
     EXPECT_EQ(clock.state(), State::lock_step);
     EXPECT_GE(clock.due(), now + 900ms);
     for (int i = 0; i < 5; ++i) step();
