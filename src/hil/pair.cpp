@@ -53,7 +53,6 @@ public:
     }
 
     void begin(MonoTime now) {
-        if (lock_step_.counters().steps != 0) ++counters_.restarts;
         lock_step_.begin(now);
         is_known_ = false;
     }
@@ -98,6 +97,8 @@ private:
         return kind;
     }
     void know(SystemId system) {
+        if (!is_known_) ++autopilots_;
+        counters_.restarts = autopilots_ - 1;
         is_known_ = true;
         messages_.set_source({system, simulator_component});
     }
@@ -127,6 +128,7 @@ private:
     SensorMessages messages_;
     LockStep lock_step_;
     PairCounters counters_;
+    std::uint64_t autopilots_ = 0;
     flight::Outputs outputs_{};
     bool is_known_ = false, is_armed_ = false;
 };

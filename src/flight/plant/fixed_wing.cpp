@@ -55,7 +55,8 @@ void FixedWing::move(const Now& now, const Surroundings& around, double dt) {
     acceleration.z() += gravity - carried / body_.mass_kg;
     Vector3 velocity = motion_.velocity + acceleration * dt;
     touches_ground_ = carried > 0;
-    const bool stands = touches_ground_ && now.brakes && motor_ == 0 && horizontal_length(motion_.velocity) < standing;
+    const bool stands = touches_ground_ && now.brakes && motor_ == 0 && !around.lift() &&
+                        horizontal_length(motion_.velocity) < standing;
     if (stands) {
         velocity = {0, 0, std::abs(now.height) < 1e-6 ? 0 : std::clamp(now.height / 0.1, -1.0, 1.0)};
     } else if (touches_ground_) {

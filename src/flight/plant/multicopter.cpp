@@ -48,7 +48,8 @@ void Multicopter::step(const Outputs& outputs, const Surroundings& around, doubl
                             : std::max(0.0, leg_stiffness * (depth + leg_travel) + leg_damping * motion_.velocity.z());
     touches_ground_ = push > 0;
     if (touches_ground_) {
-        integrate_step(legs(push, depth, free, dt), push < firm ? rates : rates_after(), dt);
+        const bool may_rest = total_ < slack * body_.mass_kg * gravity && !around.lift();
+        integrate_step(legs(push, depth, free, may_rest, dt), push < firm ? rates : rates_after(), dt);
     } else {
         integrate_step(free, rates, dt);
     }
@@ -120,14 +121,14 @@ Vector3 Multicopter::turned(const Vector3& moment, double dt) const {
     return motion_.rates + (moment - gyroscopic).cwiseQuotient(inertia_) * dt;
 }
 
-Vector3 Multicopter::legs(double push, double depth, const Vector3& acceleration, double dt) const {
+Vector3 Multicopter::legs(double push, double depth, const Vector3& acceleration, bool may_rest, double dt) const {
     Vector3 result = acceleration;
     result.z() -= push;
     if (motion_.velocity.z() > hardest_impact) result.z() = (hardest_impact - motion_.velocity.z()) / dt;
     if (push >= firm) result.head<2>() = -friction * motion_.velocity.head<2>();
     // Close to rest, the last motion ends exactly, so that a parked vehicle reports no velocity.
     const bool is_close = std::abs(depth) < 2e-4 && motion_.velocity.squaredNorm() < 4e-4;
-    if (is_close && total_ < slack * body_.mass_kg * gravity) {
+    if (is_close && may_rest) {
         const double rise = std::abs(depth) < 1e-7 ? 0 : -20 * depth;
         result = (Vector3(0, 0, rise) - motion_.velocity) / dt;
     }

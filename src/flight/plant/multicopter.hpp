@@ -30,7 +30,7 @@ private:
     [[nodiscard]] Vector3 moment(double supply) const;
     [[nodiscard]] Vector3 turned(const Vector3& moment, double dt) const;
     // Return the acceleration including the push of the legs, and the body rates that remain after that push.
-    [[nodiscard]] Vector3 legs(double push, double depth, const Vector3& acceleration, double dt) const;
+    [[nodiscard]] Vector3 legs(double push, double depth, const Vector3& acceleration, bool may_rest, double dt) const;
     [[nodiscard]] Vector3 rates_after() const;
     void report(double supply);
 

@@ -54,6 +54,9 @@ struct Surroundings {
     // Pushes and turns the vehicle from outside: m/s^2 in the local frame, rad/s^2 in the body frame. A rover's wheels
     // hold it sideways, and against turns.
     Vector3 push = Vector3::Zero(), turn = Vector3::Zero();
+
+    // Whether the push may move a vehicle that rests on the ground.
+    [[nodiscard]] bool lift() const noexcept { return push.z() < 0; }
 };
 
 // The commands to motors and servos, by channel: 0 to 1 for motors, -1 to 1 for servos and motors that can reverse.

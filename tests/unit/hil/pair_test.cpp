@@ -234,6 +234,16 @@ TEST_F(PairTest, ANewAutopilotFindsTheVehicleAtItsStartAndALaterClock) {
     EXPECT_EQ(pair->counters().restarts, 1u);
 }
 
+TEST_F(PairTest, PeersThatAreNoAutopilotAreNoRestarts) {
+    begin();
+    fly(10);
+    pair->end();
+    pair->begin(now);
+    EXPECT_EQ(send(msg::Heartbeat{.type = 6, .autopilot = 8}), Heard::stranger);
+    pair->end();
+    EXPECT_EQ(pair->counters().restarts, 0u);
+}
+
 TEST_F(PairTest, KnowsAutopilotsFromStrangers) {
     begin();
     EXPECT_EQ(send(msg::Heartbeat{.type = 6, .autopilot = 8}), Heard::stranger);
@@ -289,6 +299,20 @@ TEST_F(PairTest, APushIsWholeWithStepsThatDoNotDivideItsTime) {
     pair->push({.north_m_s = 50});
     fly(125, four(0.5f));
     EXPECT_NEAR(pair->status().north_m_s - before, 50, 0.1);
+}
+
+TEST_F(PairTest, APushUpwardsLiftsAVehicleThatStands) {
+    for (const auto kind : {flight::Kind::quad, flight::Kind::plane}) {
+        options.vehicle.kind = kind;
+        begin();
+        fly(250);
+        pair->push({.north_m_s = 3});
+        fly(250);
+        EXPECT_NEAR(pair->status().north_m_s, 0, 0.01);  // its legs and brakes hold it
+        pair->push({.down_m_s = -10});
+        fly(125);
+        EXPECT_GT(pair->status().height_m, 0.5);
+    }
 }
 
 TEST_F(PairTest, MoreMassNeedsMoreThrust) {
