@@ -187,6 +187,7 @@ void Simulator::play_input(sim::Moment now) {
         input_->set_link(record.frame.source(), link);
         fleet_->open(link, {}, now);
     }
+    received_->write(options_.utc_at_start + now.flight, record.frame);
     fleet_->receive(link, record.frame, record.info, now);
     input_->advance();
 }

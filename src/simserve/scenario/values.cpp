@@ -129,7 +129,7 @@ SetupResult<std::vector<std::pair<std::string, double>>> parse_pairs(std::string
     for (const auto& [name, number] : *parts) {
         constexpr double most = 3.4e38;  // of a parameter, which is a 32-bit float
         const auto value = parse_number(number, {-most, most});
-        if (!value) return tl::unexpected(SetupError(value.error()).within(shown(name)));
+        if (!value) return usage(fmt::format("{}: {} is not a number", shown(name), in_quotes(number)));
         pairs.emplace_back(name, *value);
     }
     return pairs;

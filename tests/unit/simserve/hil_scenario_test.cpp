@@ -8,6 +8,7 @@ namespace mavloom::simserve {
 namespace {
 
 using namespace std::chrono_literals;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -97,6 +98,7 @@ TEST(HilScenario, RefusesAutopilotsEndpointsAndRatesThatCannotBe) {
     EXPECT_THAT(error_in("[sim]\nhil = \"px4\"\nhil_sensors = \"magnet:50\"\n"), HasSubstr("mag"));
     EXPECT_THAT(error_in("[sim]\nhil = \"px4\"\nhil_sensors = \"imus:4\"\n"), HasSubstr("imus: 4 is not from 1 to 3"));
     EXPECT_THAT(error_in("[sim]\nhil = \"px4\"\nhil_sensors = \"imus:2.5\"\n"), HasSubstr("not a whole number"));
+    EXPECT_THAT(error_in("[sim]\nhil = \"px4\"\nhil_sensors = \"gps:\"\n"), EndsWith("gps: '' is not a number"));
     EXPECT_THAT(error_in("[sim]\nhil_sensors = \"imu:100\"\n"), HasSubstr("it is for hil"));
 }
 

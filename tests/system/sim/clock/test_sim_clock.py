@@ -230,6 +230,14 @@ def test_a_session_is_played_again(sim, run, tmp_path, speed):
     assert max(heights) > 2000, "it did fly"
 
 
+def test_what_is_played_is_kept_again(fly, run, tmp_path):
+    played, kept = fly(), tmp_path / "kept.tlog"
+    done = run("sim", "--replay-input", played, "--start-time", "2026-11-29T12:00:00Z", "--record-input", kept,
+               "--record", tmp_path / "x.tlog", "--for", "2m", "--speed", "max", "--ring", "kept")
+    assert done.status == 0, done
+    assert kept.read_bytes() == played.read_bytes()
+
+
 def test_without_its_input_the_session_is_another_one(sim, run, tmp_path):
     arguments, recorded = session(sim, tmp_path)
     done = run("sim", *arguments[2:], "--speed", "max", "--for", "5m", "--record", tmp_path / "other.tlog")
