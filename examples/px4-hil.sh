@@ -35,6 +35,9 @@ if [ "$(id -u)" = 0 ]; then
   echo "PX4 takes real-time priority when root runs it. An ordinary user is safer." >&2
 fi
 
+case ${PX4_INSTANCE:-0} in
+  *[!0-9]*) echo "PX4_INSTANCE=$PX4_INSTANCE is not a number, as in PX4_INSTANCE=1" >&2; exit 2 ;;
+esac
 number=${PX4_INSTANCE:-0} name=sim${PX4_INSTANCE:-} gcs=${GCS:-127.0.0.1:$((14550 + ${PX4_INSTANCE:-0}))}
 export PX4_SIM_MODEL=${PX4_SIM_MODEL:-none_iris}
 work=${PX4_WORK:-$(mktemp -d)}

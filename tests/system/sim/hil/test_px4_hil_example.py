@@ -120,3 +120,8 @@ def test_a_folder_without_px4_is_an_error(example, tmp_path):
     script, _, _ = example(folder=tmp_path)
     done = script.wait()
     assert done.status == 1 and "build/px4_sitl_default/bin/px4" in done.stderr
+
+
+def test_an_instance_that_is_no_number_is_an_error(example):
+    done = example(PX4_INSTANCE="second")[0].wait()
+    assert done.status == 2 and "PX4_INSTANCE=second is not a number" in done.stderr, done
