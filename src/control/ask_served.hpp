@@ -15,9 +15,13 @@ namespace asio = boost::asio;
 
 using Then = std::function<void(Report)>;
 
-// Copies the report, one piece between two turns of the served program, then calls `then` on `back`. Call it on the
-// served program's thread.
+// Waits for the report, copies it, one piece between two turns of the served program, then calls `then` on `back`. Call
+// it on the served program's thread.
 inline void copy_report(Served& served, const asio::any_io_executor& back, Report report, Then then) {
+    if (report.answer_later)
+        return report.answer_later([&served, back, then = std::move(then)](Report known) {
+            copy_report(served, back, std::move(known), then);
+        });
     if (!report.copy_more || !report.copy_more())
         return asio::post(back,
                           [report = std::move(report), then = std::move(then)]() mutable { then(std::move(report)); });

@@ -12,6 +12,9 @@ namespace mavloom::control {
 // An answer that is copied and formatted in pieces. This keeps each turn of the owner's loop short, and limits the
 // memory that a slow client occupies.
 struct Report {
+    // Set if the answer is not known yet; the other two are then empty. The owner's thread calls it, and calls `then`
+    // once the answer is known.
+    std::function<void(std::function<void(Report)> then)> answer_later{};
     // The owner's thread calls this between two turns. It copies one piece of the data, in less than a millisecond, and
     // returns true while something is left. Empty if there is nothing to copy.
     std::function<bool()> copy_more{};
@@ -32,7 +35,8 @@ public:
     // Any thread may call it. `work` runs on the owner's thread, between two of its turns. Work that is still pending
     // when the owner ends is destroyed without being run.
     virtual void post(std::function<void()> work) = 0;
-    // Destroys posted work that has not run yet. An object that posts work must call this before it is destroyed.
+    // Destroys posted work that has not run yet, and each `then` of Report::answer_later. An object that posts work
+    // must call this before it is destroyed.
     virtual void drop_posted() = 0;
 
     // Both run on the owner's thread.

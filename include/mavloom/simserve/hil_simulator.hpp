@@ -9,7 +9,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -79,9 +78,9 @@ public:
     [[nodiscard]] std::vector<HilReport> reports() const;
     // The vehicles whose autopilot has this system id; without one, all.
     [[nodiscard]] std::vector<hil::Pair*> pairs(std::optional<SystemId> system);
-    // Moves paused flights by this time, rounded up to whole steps. Returns when their autopilots have answered the
-    // last step, or after `limit`; the rest of the steps then follows.
-    void step(std::span<hil::Pair* const> pairs, Nanoseconds time, Nanoseconds limit);
+    // Moves paused flights by this time, rounded up to whole steps. Calls `then` between two turns, when their
+    // autopilots have answered the last step, or after `limit`; the rest of the steps then follows.
+    void step(std::vector<hil::Pair*> pairs, Nanoseconds time, Nanoseconds limit, std::function<void()> then);
     [[nodiscard]] link::Links& links() noexcept { return *links_; }
     [[nodiscard]] const HilOptions& options() const noexcept { return options_; }
     [[nodiscard]] Nanoseconds uptime() const { return mono_now() - created_; }
@@ -100,12 +99,21 @@ private:
     [[nodiscard]] HilPort* port_of(link::EndpointId endpoint) noexcept;
     void step_due(MonoTime now);
     void maintain(MonoTime now);
+    void end_steps(MonoTime now);
+
+    // A request to move paused flights that is not answered yet.
+    struct Step {
+        std::vector<hil::Pair*> pairs;
+        MonoTime end{};
+        std::function<void()> then;
+    };
 
     const HilOptions options_;
     Notice notice_;
     std::unique_ptr<link::Links> links_;
     std::unique_ptr<control::PostBox> posted_;
     std::vector<std::unique_ptr<HilPort>> ports_;
+    std::vector<Step> steps_;
     MonoTime created_ = mono_now(), maintain_due_{};
 };
 

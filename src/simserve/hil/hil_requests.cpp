@@ -72,9 +72,15 @@ Report step_flights(HilSimulator& simulator, const Json& request) {
             return failed(fmt::format("vehicle {} waits for its PX4, so it makes no step", pair->status().system.value));
         before.push_back(pair->lock_step().time());
     }
-    // `mavloom ctl` waits for five seconds.
-    simulator.step(*pairs, std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(*time)), 4s);
-    return report_steps(simulator, request, *pairs, before);
+    const auto move_and_report = [&simulator, request, pairs = *pairs, before,
+                                  time = std::chrono::duration<double>(*time)](std::function<void(Report)> then) {
+        constexpr auto limit = 4s;  // `mavloom ctl` waits for five seconds
+        simulator.step(pairs, std::chrono::duration_cast<Nanoseconds>(time), limit,
+                       [&simulator, request, pairs, before, then = std::move(then)] {
+                           then(report_steps(simulator, request, pairs, before));
+                       });
+    };
+    return {.answer_later = move_and_report, .next_text = {}};
 }
 
 Report reset_vehicles(HilSimulator& simulator, const Json& request) {

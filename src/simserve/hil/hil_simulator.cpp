@@ -58,11 +58,14 @@ SetupResult<void> HilSimulator::add(const flight::VehicleOptions& vehicle, const
 // ---- turns ----------------------------------------------------------------------------------------------------------
 
 void HilSimulator::turn(MonoTime deadline) {
+    constexpr Nanoseconds longest_wait = 10ms;  // of a step: an answer that does not come makes nothing due
     deadline = std::min({deadline, next_due(), maintain_due_});
+    if (!steps_.empty()) deadline = std::min(deadline, mono_now() + longest_wait);
     exchange(posted_->empty() ? deadline : MonoTime{});
     if (!posted_->empty()) posted_->run_one();
     const MonoTime now = mono_now();
     step_due(now);
+    if (!steps_.empty()) end_steps(now);
     if (now >= maintain_due_) maintain(now);
 }
 
@@ -71,14 +74,19 @@ void HilSimulator::exchange(MonoTime deadline) {
     for (const auto& port : ports_) port->settle();
 }
 
-void HilSimulator::step(std::span<hil::Pair* const> pairs, Nanoseconds time, Nanoseconds limit) {
-    constexpr Nanoseconds longest_wait = 10ms;  // an answer that does not come makes nothing due
+void HilSimulator::step(std::vector<hil::Pair*> pairs, Nanoseconds time, Nanoseconds limit, std::function<void()> then) {
     for (hil::Pair* const pair : pairs) pair->allow(time);
-    const auto is_stepping = [&](const hil::Pair* pair) { return pair->lock_step().is_stepping(mono_now()); };
-    for (const MonoTime end = mono_now() + limit; std::ranges::any_of(pairs, is_stepping) && mono_now() < end;) {
-        step_due(mono_now());
-        exchange(std::min(next_due(), mono_now() + longest_wait));
-    }
+    steps_.push_back({std::move(pairs), mono_now() + limit, std::move(then)});
+}
+
+// Several requests for one flight add up, and each of them ends when the flight stands still.
+void HilSimulator::end_steps(MonoTime now) {
+    const auto is_stepping = [&](const hil::Pair* pair) { return pair->lock_step().is_stepping(now); };
+    std::erase_if(steps_, [&](const Step& step) {
+        if (now < step.end && std::ranges::any_of(step.pairs, is_stepping)) return false;
+        step.then();
+        return true;
+    });
 }
 
 MonoTime HilSimulator::next_due() const noexcept {
@@ -123,7 +131,10 @@ void HilSimulator::post(std::function<void()> work) {
     wake();
 }
 
-void HilSimulator::drop_posted() { posted_->drop(); }
+void HilSimulator::drop_posted() {
+    posted_->drop();
+    steps_.clear();
+}
 
 // ---- reports --------------------------------------------------------------------------------------------------------
 

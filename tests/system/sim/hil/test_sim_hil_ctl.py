@@ -45,6 +45,43 @@ def test_without_an_autopilot_there_is_no_step(hil, run):
     assert done.status == 1 and "waits for its PX4" in done.stderr, done
 
 
+@pytest.fixture
+def stepping(hil, stand_in):
+    """A simulator whose paused flight moves by 0.3 s, at a tenth of real time, and the client that waits for it."""
+    simulator = hil("--speed", "0.1")
+    stand_in(simulator.hil_port, boot_steps=5)
+    harness.wait_for(lambda: simulator.hil()["state"] == "lock-step", what="the first answer")
+    simulator.ctl("pause")
+    before = simulator.hil()["flight_s"]
+    client = harness.Running([simulator.program, "ctl", simulator.name, "step", "300ms"], env=harness.environment())
+    harness.wait_for(lambda: simulator.hil()["flight_s"] > before, what="a flight that moves")
+    assert client.alive, "the state came before the answer to the step"
+    yield simulator, before, client
+    harness.end([client])
+
+
+def test_during_a_step_others_are_answered_and_their_steps_added(stepping):
+    simulator, before, client = stepping
+    further = json.loads(simulator.ctl("step", "20ms").splitlines()[0])
+    assert 0 < further["moved_s"] < 0.32
+    assert simulator.hil()["flight_s"] == pytest.approx(before + 0.32, abs=1e-9)
+    assert json.loads(client.wait().stdout.splitlines()[0])["moved_s"] == pytest.approx(0.32, abs=1e-9)
+
+
+def test_a_client_that_goes_during_a_step_leaves_the_rest(stepping):
+    simulator, before, client = stepping
+    client.kill()
+    simulator.ctl("step", "20ms")
+    assert simulator.hil()["flight_s"] == pytest.approx(before + 0.32, abs=1e-9)
+
+
+def test_during_a_step_the_simulator_ends_at_once(stepping):
+    simulator, _, client = stepping
+    assert simulator.stop().status == 130
+    ended = client.wait()
+    assert ended.status == 1 and "the answer was cut off" in ended.stderr, ended
+
+
 def test_a_paused_flight_moves_by_exact_steps(holding):
     simulator, pilot = holding
     simulator.ctl("pause")
