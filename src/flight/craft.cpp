@@ -88,7 +88,7 @@ void Craft::move(const Outputs& outputs, bool armed) {
 void Craft::put_back() {
     plant_->place({home_place_.x(), home_place_.y(), ground_z()}, home_yaw_);
     pilot_->start(truth());
-    ++put_backs_;
+    ++not_finite_;
 }
 
 void Craft::set_failures(const Failures& failures) {

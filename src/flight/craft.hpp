@@ -26,7 +26,7 @@ public:
     // Puts the vehicle at rest at a place of the local frame, which may be in the air.
     void place(const Vector3& position, double heading);
     // How often the motion was no longer finite, so that the vehicle was put back at its home, at rest.
-    [[nodiscard]] unsigned put_backs() const noexcept { return put_backs_; }
+    [[nodiscard]] unsigned not_finite() const noexcept { return not_finite_; }
     // Boots the vehicle again where it stands.
     void reboot();
 
@@ -89,7 +89,7 @@ private:
     Vector3 home_place_ = Vector3::Zero();
     double home_yaw_ = 0, air_density_, last_range_ = 0;
     FlightTime time_{};
-    unsigned put_backs_ = 0;
+    unsigned not_finite_ = 0;
     bool has_origin_ = false;
     mutable GeoPoint position_;
     mutable bool position_is_old_ = true;

@@ -37,12 +37,12 @@ void Flight::begin_random_motion() {
 void Flight::step() {
     if (steps_++ % navigation_period == 0) random_pilot_ ? steer_at_random() : supervise();
     context_.craft.step(navigator_.guidance().setpoint(), context_.armed);
-    if (context_.craft.put_backs() != put_backs_) on_put_back();
+    if (context_.craft.not_finite() != not_finite_) on_put_back();
 }
 
 // The pilot starts afresh. Only the first time is reported.
 void Flight::on_put_back() {
-    if (std::exchange(put_backs_, context_.craft.put_backs()) == 0)
+    if (std::exchange(not_finite_, context_.craft.not_finite()) == 0)
         context_.say(Severity::critical, "Motion became infinite: back at home, check body and wind");
     (void)commander_.disarm(true, OrderedBy::vehicle);
     detector_.reset();

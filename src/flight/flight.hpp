@@ -126,7 +126,7 @@ public:
     // Those that the operator set, in that order.
     [[nodiscard]] std::span<const Fault> faults() const noexcept { return faults_.list(); }
     // How often the motion was no longer finite, so that the vehicle was put back at its home.
-    [[nodiscard]] unsigned put_backs() const noexcept { return put_backs_; }
+    [[nodiscard]] unsigned not_finite() const noexcept { return not_finite_; }
     // True if the operator switched this part off.
     [[nodiscard]] bool is_off(FaultPart part) const noexcept { return faults_.has(part); }
     [[nodiscard]] const Battery& battery() const noexcept { return context_.craft.battery(); }
@@ -211,7 +211,7 @@ private:
     std::optional<RandomPilot> random_pilot_;  // steers instead of the navigator
     Shown shown_;
     unsigned steps_ = 0;
-    unsigned put_backs_ = 0;  // those of the craft that were handled
+    unsigned not_finite_ = 0;  // those of the craft that were handled
 };
 
 }  // namespace mavloom::flight

@@ -195,7 +195,7 @@ VehicleStatus Vehicle::status() const {
             .mission_items = flight.plans().mission().size(),
             .mission_current = flight.mission().current,
             .since_boot = flight.since_boot(),
-            .put_backs = flight.put_backs(),
+            .not_finite = flight.not_finite(),
             .faults = faults_of(flight, parts_->failures)};
 }
 

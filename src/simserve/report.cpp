@@ -62,7 +62,7 @@ void append_vehicle(std::string& text, const sim::VehicleStatus& s) {
                        {"mission_items", s.mission_items},
                        {"mission_current", s.mission_current},
                        {"boot_s", rounded(seconds(s.since_boot), 1e3)},
-                       {"put_backs", s.put_backs},
+                       {"not_finite", s.not_finite},
                        {"faults", s.faults}});
 }
 

@@ -34,7 +34,7 @@ struct VehicleStatus {
     double battery_percent = 0, battery_volts = 0;
     std::uint16_t mission_items = 0, mission_current = 0;
     FlightTime since_boot{};
-    unsigned put_backs = 0;           // times that its motion became infinite, so that it was put back at home
+    unsigned not_finite = 0;          // times that its motion was not finite, so that it was put back at home
     std::vector<std::string> faults;  // on purpose: "gps off"; by clients: "motor off, instances 1"
 };
 

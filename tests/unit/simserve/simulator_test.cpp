@@ -94,6 +94,7 @@ TEST_F(SimulatorTest, AnswersRequests) {
     run(50ms);
     EXPECT_THAT(answer(R"({"cmd":"state"})"), testing::StartsWith(R"({"kind":"vehicle","system":1,"type":"quad")"));
     EXPECT_THAT(answer(R"({"cmd":"state"})"), testing::EndsWith("{\"ok\":true}\n"));
+    EXPECT_THAT(answer(R"({"cmd":"state"})"), HasSubstr(R"("not_finite":0)"));
     EXPECT_THAT(answer(R"({"cmd":"streams"})"), HasSubstr(R"("name":"ATTITUDE","asked_hz":50.0)"));
     EXPECT_THAT(sut->metrics().next_text(), HasSubstr("mavloom_sim_frames_sent_total{}"));
 }
