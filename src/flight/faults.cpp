@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "mavloom/base/counted.hpp"
+
 namespace mavloom::flight {
 
 namespace {
@@ -116,6 +118,14 @@ std::string text_of(const Fault& fault) {
                                    fault_kind_names[static_cast<std::size_t>(fault.kind)]);
     for (std::size_t i = 0; i < fault.count; ++i) text += fmt::format(" {:g}", fault.numbers[i]);
     return text;
+}
+
+std::string motor_refusal(const Fault& fault, const Channels& channels) {
+    if (!is_numbered(fault.part)) return {};
+    const auto motors = std::ranges::count(channels.is_motor, true);
+    if (motors == 0) return "a rover's motor does not fail";
+    if (fault.count == 0 || fault.numbers[0] <= static_cast<double>(motors)) return {};
+    return fmt::format("the vehicle has {}", counted(static_cast<std::uint64_t>(motors), "motor"));
 }
 
 void Faults::set(const Fault& fault) {

@@ -4,12 +4,17 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "flight/physics/failures.hpp"
+#include "flight/plant/plant.hpp"
 #include "mavloom/flight/fault.hpp"
 
 namespace mavloom::flight {
+
+// Why it cannot be a fault of a vehicle with these channels: it has no such motor. Empty if it has.
+[[nodiscard]] std::string motor_refusal(const Fault& fault, const Channels& channels);
 
 class Faults {
 public:

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The orders of Flight: what is refused, and who carries out the rest.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "flight/flight.hpp"
 #include "flight/physics/math.hpp"
-#include "mavloom/base/counted.hpp"
 
 namespace mavloom::flight {
 
@@ -265,12 +263,8 @@ Outcome Flight::inject_failures(const Failures& failures) {
 
 Outcome Flight::set_fault(const Fault& fault) {
     if (fault.part == FaultPart::battery && fault.kind == FaultKind::charge) return set_battery(fault.numbers[0] / 100);
-    const bool is_numbered = fault.part == FaultPart::motor || fault.part == FaultPart::esc;
-    const auto motors = std::ranges::count(plant().channels().is_motor, true);
-    if (is_numbered && motors == 0) return {Result::unsupported, "a rover's motor does not fail"};
-    if (is_numbered && fault.count != 0 && fault.numbers[0] > static_cast<double>(motors))
-        return {Result::denied,
-                fmt::format("the vehicle has {}", counted(static_cast<std::uint64_t>(motors), "motor"))};
+    if (auto refusal = motor_refusal(fault, plant().channels()); !refusal.empty())
+        return {Result::denied, std::move(refusal)};
     return carry_out([&]() -> Outcome {
         if (fault.kind == FaultKind::ok && (fault.part == FaultPart::battery || fault.part == FaultPart::all))
             context_.craft.battery().restore();

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "hil/outputs.hpp"
 #include "hil/sensed_vehicle.hpp"
 #include "hil/sensor_messages.hpp"
-#include "mavloom/base/counted.hpp"
 #include "mavloom/msg/command_long.hpp"
 #include "mavloom/msg/enums/hil_actuator_controls_flags.hpp"
 #include "mavloom/msg/enums/mav_autopilot.hpp"
@@ -169,12 +169,8 @@ SetupResult<void> Pair::fail(const flight::Fault& fault) {
         return setup_error(SetupCode::usage,
                            fmt::format("the {} is PX4's own; with its command MAV_CMD_INJECT_FAILURE it fails there",
                                        flight::fault_part_names[static_cast<std::size_t>(fault.part)]));
-    const auto motors = std::ranges::count(parts_->vehicle().channels().is_motor, true);
-    if (fault.part == flight::FaultPart::motor && motors == 0)
-        return setup_error(SetupCode::usage, "a rover's motor does not fail");
-    if (fault.part == flight::FaultPart::motor && fault.count != 0 && fault.numbers[0] > static_cast<double>(motors))
-        return setup_error(SetupCode::usage,
-                           fmt::format("the vehicle has {}", counted(static_cast<std::uint64_t>(motors), "motor")));
+    if (auto refusal = flight::motor_refusal(fault, parts_->vehicle().channels()); !refusal.empty())
+        return setup_error(SetupCode::usage, std::move(refusal));
     parts_->vehicle().fail(fault);
     return {};
 }
