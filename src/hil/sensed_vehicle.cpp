@@ -40,6 +40,7 @@ SensedVehicle::SensedVehicle(const flight::VehicleOptions& options, const Sensor
 
 void SensedVehicle::place_at_start() {
     plant_->place(Vector3::Zero(), flight::to_radians(options_.home.heading_deg));
+    around_.push = around_.turn = Vector3::Zero();
     push_left_ = 0;
 }
 

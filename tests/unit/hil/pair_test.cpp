@@ -87,6 +87,16 @@ TEST_F(PairTest, AnInfiniteMotionPutsTheVehicleBackAtItsStart) {
     EXPECT_EQ(pair->status().height_m, 0);
 }
 
+TEST_F(PairTest, AResetEndsAPush) {
+    begin();
+    fly(250, four(0.6f));
+    pair->push({.north_m_s = std::numeric_limits<double>::max()});  // an infinite acceleration
+    pair->reset();
+    pair->push({.north_m_s = 3});
+    fly(10, four(0.6f));
+    EXPECT_EQ(pair->counters().not_finite, 0u);
+}
+
 TEST_F(PairTest, TimesAreThoseOfTheStepsAndGpsHasUtc) {
     begin();
     const auto steps = fly(250);
