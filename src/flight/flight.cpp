@@ -56,6 +56,7 @@ unsigned Flight::steps_to_change() const noexcept {
 void Flight::supervise() {
     const Guidance& guidance = navigator_.guidance();
     detector_.update({guidance.is_climbing(), guidance.is_landing(), navigator_.is_home()});
+    if (crash_detector_.update(context_.craft.plant())) commander_.on_crash();
     commander_.update();
     failsafes_.update();
     if (const auto next = navigator_.update())

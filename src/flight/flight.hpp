@@ -10,6 +10,7 @@
 //   Craft           moves: plant, pilot, battery, sensors, wind       250 Hz
 //   Navigator       set-points for the current behaviour           50 Hz, like the parts below
 //   LandedDetector  on the ground or not
+//   CrashDetector   hit the ground too hard, so that the Commander disarms
 //   Commander       armed or not, and in which mode
 //   Failsafes       make the Commander act; a breached Fence is one reason
 #pragma once
@@ -27,6 +28,7 @@
 #include "flight/plan.hpp"
 #include "flight/state.hpp"
 #include "flight/supervision/commander.hpp"
+#include "flight/supervision/crash_detector.hpp"
 #include "flight/supervision/failsafes.hpp"
 #include "flight/supervision/fence.hpp"
 #include "flight/supervision/landed_detector.hpp"
@@ -205,6 +207,7 @@ private:
     Faults faults_;
     Navigator navigator_;
     LandedDetector detector_;
+    CrashDetector crash_detector_;
     Commander commander_;
     Fence fence_;
     Failsafes failsafes_;

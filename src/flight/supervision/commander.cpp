@@ -159,6 +159,10 @@ void Commander::end_flight(std::string_view text) {
     intended_ = mode_;
 }
 
+void Commander::on_crash() {
+    if (context_.armed) end_flight(context_.texts().disarmed_by_crash);
+}
+
 Outcome Commander::terminate() {
     if (!context_.armed) return Result::temporarily_rejected;
     end_flight(context_.texts().disarmed);
@@ -258,9 +262,7 @@ void Commander::update() {
     Craft& craft = context_.craft;
     if (context_.now() >= context_.options.ready_after / 2) craft.acquire_gps();
     if (!craft.home() && is_booted() && craft.sensors().has_position()) put_home_here();
-    const bool has_crashed = detector_.take_crash();
     if (!context_.armed) return;
-    if (has_crashed) return end_flight(context_.texts().disarmed_by_crash);
     has_flown_ |= !context_.is_on_ground();
     disarm_if_standing();
 }

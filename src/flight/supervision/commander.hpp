@@ -22,9 +22,10 @@ public:
     void perform(FailsafeAction action);
     // Call it when the reason for the fail-safe is gone: the vehicle continues in the mode that the client asked for.
     void resume();
-    // Call it 50 times a second. Completes the boot, and disarms a vehicle that has crashed or has been standing for
-    // too long.
+    // Call it 50 times a second. Completes the boot, and disarms a vehicle that has been standing for too long.
     void update();
+    // The vehicle hit the ground and broke: disarms it.
+    void on_crash();
     void reboot();
     void set_calibrating(bool calibrating) noexcept { is_calibrating_ = calibrating; }
     void require_reboot(Unready reason) noexcept { reboot_for_ |= reason; }

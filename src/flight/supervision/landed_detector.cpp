@@ -5,32 +5,19 @@ namespace mavloom::flight {
 
 namespace {
 
-constexpr double clearance = 0.05;     // m above the ground
-constexpr double low_thrust = 0.25;    // of the full thrust: less does not carry the vehicle
-constexpr double slow = 1;             // m/s
-constexpr double resting_time = 1;     // s at rest on the ground, until the vehicle counts as landed
-constexpr double hardest_landing = 5;  // m/s downwards
-constexpr double least_upright = 0.5;  // tilted by 60 degrees, as PX4's FD_FAIL_R and FD_FAIL_P
+constexpr double clearance = 0.05;   // m above the ground
+constexpr double low_thrust = 0.25;  // of the full thrust: less does not carry the vehicle
+constexpr double slow = 1;           // m/s
+constexpr double resting_time = 1;   // s at rest on the ground, until the vehicle counts as landed
 
 }  // namespace
 
 void LandedDetector::reset() noexcept {
     took_off_at_ = landed_at_ = resting_since_ = {};
-    has_crashed_ = false;
     context_.landed = LandedState::on_ground;
 }
 
-void LandedDetector::watch_impact() {
-    const Plant& plant = context_.craft.plant();
-    const bool hits = plant.touches_ground() && !touched_;
-    has_crashed_ |= hits && (sinking_ > hardest_landing || upright_ < least_upright);
-    touched_ = plant.touches_ground();
-    sinking_ = plant.motion().velocity.z();
-    upright_ = (plant.motion().attitude * Vector3::UnitZ()).z();
-}
-
 void LandedDetector::update(const Phase& phase) {
-    watch_impact();
     const bool was_airborne = !context_.is_on_ground(), is_flying = is_airborne(phase);
     if (is_flying && !was_airborne) take_off();
     if (!is_flying && was_airborne) touch_down();

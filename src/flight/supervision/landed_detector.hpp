@@ -2,8 +2,6 @@
 // Detects take-off and landing, and keeps FlightContext::landed. Private to flight; single owner.
 #pragma once
 
-#include <utility>
-
 #include "flight/context.hpp"
 
 namespace mavloom::flight {
@@ -20,8 +18,6 @@ public:
     // Call it 50 times a second.
     void update(const Phase& phase);
     void reset() noexcept;
-    // True once after the vehicle hit the ground fast or lying on its side: such a landing breaks it.
-    [[nodiscard]] bool take_crash() noexcept { return std::exchange(has_crashed_, false); }
 
     [[nodiscard]] FlightTime took_off_at() const noexcept { return took_off_at_; }
     // Seconds on the ground since the last landing, or since boot.
@@ -29,14 +25,11 @@ public:
 
 private:
     [[nodiscard]] bool is_airborne(const Phase& phase);
-    void watch_impact();
     void take_off();
     void touch_down();
 
     FlightContext& context_;
     FlightTime took_off_at_{}, landed_at_{}, resting_since_{};
-    double sinking_ = 0, upright_ = 1;  // before it touched the ground: m/s; the cosine of the tilt
-    bool touched_ = true, has_crashed_ = false;
 };
 
 }  // namespace mavloom::flight

@@ -126,6 +126,27 @@ TEST(CrashTest, AVehicleThatFallsIsDisarmedAndLanded) {
     }
 }
 
+// With the fastest descent that each firmware's parameters allow.
+TEST(CrashTest, APilotWhoDescendsAsFastAsAllowedLands) {
+    for (const Autopilot autopilot : {Autopilot::px4, Autopilot::ardupilot}) {
+        const bool is_px4 = autopilot == Autopilot::px4;
+        FlightRig rig(of(Kind::quad, autopilot));
+        if (is_px4) rig.set("MPC_Z_V_AUTO_DN", 4);
+        rig.set(is_px4 ? "MPC_Z_VEL_MAX_DN" : "WPNAV_SPEED_DN", is_px4 ? 4 : 500);
+        rig.take_off(40);
+        rig.flight.on_sticks({});
+        ASSERT_TRUE(rig.set_mode(is_px4 ? "Position" : "LOITER").is_accepted());
+        double fastest = 0;
+        rig.run(20, [&] {
+            rig.flight.on_sticks({.throttle = 0});
+            fastest = std::max(fastest, rig.flight.truth().velocity.z());
+        });
+        EXPECT_GT(fastest, is_px4 ? 3.9 : 4.9);
+        EXPECT_FALSE(rig.flight.armed());
+        EXPECT_FALSE(rig.was_said(is_px4 ? "Disarmed by failure detector" : "Crash: Disarming"));
+    }
+}
+
 // No scenario has such a wind, which carries it away as soon as it leaves the ground.
 TEST(InfiniteMotionTest, TheVehicleIsPutBackAtHomeAndReportsItOnce) {
     VehicleOptions options = ready;
