@@ -29,7 +29,9 @@ Flight::Flight(const VehicleOptions& options, const Firmware& firmware, const Pa
 
 void Flight::begin_random_motion() {
     random_pilot_.emplace(context_.options.seed);
-    context_.craft.place({0, 0, -RandomPilot::height}, to_radians(context_.options.home.heading_deg));
+    Craft& craft = context_.craft;
+    const Vector3 above{craft.home_place().x(), craft.home_place().y(), craft.ground_z() - RandomPilot::height};
+    craft.place(above, to_radians(context_.options.home.heading_deg));
     context_.armed = true;
     context_.landed = LandedState::in_air;
 }
@@ -40,10 +42,11 @@ void Flight::step() {
     if (context_.craft.not_finite() != not_finite_) on_put_back();
 }
 
-// The pilot starts afresh. Only the first time is reported.
+// The pilot starts afresh. Only the first time is reported. A vehicle that moves at random is never on the ground.
 void Flight::on_put_back() {
     if (std::exchange(not_finite_, context_.craft.not_finite()) == 0)
         context_.say(Severity::critical, "Motion became infinite: back at home, check body and wind");
+    if (random_pilot_) return begin_random_motion();
     (void)commander_.disarm(true, OrderedBy::vehicle);
     detector_.reset();
     report_changes();

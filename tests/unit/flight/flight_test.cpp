@@ -164,6 +164,18 @@ TEST(InfiniteMotionTest, TheVehicleIsPutBackAtHomeAndReportsItOnce) {
     EXPECT_EQ(std::ranges::count(rig.texts, "Motion became infinite: back at home, check body and wind"), 1);
 }
 
+TEST(InfiniteMotionTest, AVehicleThatMovesAtRandomStaysArmedInTheAir) {
+    VehicleOptions options{.motion = Motion::random};
+    options.wind.speed_m_s = std::numeric_limits<double>::infinity();
+    FlightRig rig(options);
+    rig.run(5, [&] {
+        ASSERT_TRUE(rig.flight.armed());
+        ASSERT_EQ(rig.flight.landed(), LandedState::in_air);
+        ASSERT_LT((rig.flight.truth().position - Vector3(0, 0, -50)).norm(), 1);
+    });
+    EXPECT_GT(rig.flight.not_finite(), 1u);
+}
+
 // Of three motors, two on one side make it tumble.
 TEST(Faults, WithAMotorLessAQuadFalls) {
     FlightRig rig(ready);
