@@ -52,6 +52,7 @@ void Recorder::run() {
     if (const auto lost = writer_.lost_records(); lost != 0)
         notice_(fmt::format("{}: {} {} not written", label_, lost, lost == 1 ? "frame" : "frames"));
     finished_.store(true, std::memory_order_release);
+    finished_.notify_all();
 }
 
 SetupResult<void> Recorder::report_removed(SetupResult<std::filesystem::path> removed) {

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: MIT
 """The package as interpreters, notebooks and editors show it, and misuse that its objects refuse."""
 import inspect
+import os
 import pathlib
 import re
 import struct
 import subprocess
 import sys
+import time
 import warnings
 
 import pytest
@@ -264,6 +266,29 @@ with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as far:
                           env=child_environment)
     assert (done.returncode, done.stderr) == (0, "")
     assert [m.time_boot_ms for m in mavloom.read(tmp_path / "x.tlog")] == list(range(300))
+
+
+def test_an_exit_waits_for_a_disk_that_is_slow(tmp_path, child_environment):
+    code = """import mavloom, socket, sys, time
+link = mavloom.connect("udpin://127.0.0.1:0")
+recorder = link.record(sys.argv[1])
+with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as far:
+    for i in range(2000):
+        far.sendto(mavloom.Dialect().encode("ATTITUDE", time_boot_ms=i, yawspeed=1), ("127.0.0.1", link.port))
+        while i % 50 == 0 and link.stats.frames_in <= i:
+            time.sleep(0.001)
+    while link.stats.frames_in < 2000:
+        time.sleep(0.001)
+print("heard", flush=True)
+"""
+    fifo = tmp_path / "slow"  # holds 64 kB, less than the recording
+    os.mkfifo(fifo)
+    with subprocess.Popen([sys.executable, "-c", code, fifo], stdout=subprocess.PIPE, text=True,
+                          env=child_environment) as child, open(fifo, "rb") as disk:
+        assert child.stdout.readline() == "heard\n"
+        time.sleep(0.5)  # the disk
+        (tmp_path / "x.tlog").write_bytes(disk.read())
+    assert [m.time_boot_ms for m in mavloom.read(tmp_path / "x.tlog")] == list(range(2000))
 
 
 @pytest.mark.parametrize("replaced", [False, True])

@@ -65,6 +65,8 @@ public:
         queue_->close();
     }
     [[nodiscard]] bool finished() const noexcept { return finished_.load(std::memory_order_acquire); }
+    // Waits until it has. Any thread, any number of them, while the object lives.
+    void wait() const noexcept { finished_.wait(false, std::memory_order_acquire); }
     // Calls `end` and waits until the writing thread has finished.
     void stop();
 

@@ -316,10 +316,12 @@ void bind_link(nb::module_& module) {
     module.def("is_vehicle", &feed::is_vehicle, nb::arg("type"), nb::arg("autopilot"),
                "Whether a HEARTBEAT with these values comes from a vehicle.");
     module.def("stop_all", [] {
+        const auto recorders = LinkRecorder::all();
         const nb::gil_scoped_release release;
         WithoutGil::end();
         feed::Hub::stop_all();
         feed::RingAlarm::stop_all();
+        for (const auto& recorder : recorders) recorder->wait();  // the hub has ended them
     });
 }
 

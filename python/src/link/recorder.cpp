@@ -10,7 +10,21 @@
 
 namespace mavloom::python {
 
-static constexpr std::size_t max_notices = 16;  // a disk may fill up again and again
+namespace {
+
+constexpr std::size_t max_notices = 16;  // a disk may fill up again and again
+
+struct Created {
+    std::weak_ptr<record::Recorder> recorder;
+    feed::ForkGuard fork{};
+};
+// Guarded by the GIL.
+std::vector<Created>& created() {
+    static auto& recorders = *new std::vector<Created>;  // never destroyed, as threads may outlive static objects
+    return recorders;
+}
+
+}  // namespace
 
 LinkRecorder::LinkRecorder(std::shared_ptr<feed::Channel> channel, const std::string& path)
     : channel_(std::move(channel)), notices_(std::make_shared<Notices>()) {
@@ -23,6 +37,8 @@ LinkRecorder::LinkRecorder(std::shared_ptr<feed::Channel> channel, const std::st
     }();
     recorder_ = value_or_raise(std::move(opened));
     channel_->record_with(recorder_);
+    std::erase_if(created(), [](const Created& c) { return c.recorder.expired(); });
+    created().push_back({recorder_});
 }
 
 LinkRecorder::~LinkRecorder() {
@@ -57,6 +73,14 @@ void LinkRecorder::close() {
                          fmt::format("{}: {} not recorded{}{}", recorder_->label(), counted(lost, "frame"),
                                      said.empty() ? "" : ": ", said.empty() ? "" : said.front())});
     for (const auto& text : said) warn(text);
+}
+
+std::vector<std::shared_ptr<record::Recorder>> LinkRecorder::all() {
+    std::vector<std::shared_ptr<record::Recorder>> recorders;
+    for (const Created& entry : created())
+        if (auto recorder = entry.recorder.lock(); recorder && entry.fork.is_own_process())
+            recorders.push_back(std::move(recorder));
+    return recorders;
 }
 
 std::vector<std::string> LinkRecorder::notices() const {

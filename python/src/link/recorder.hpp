@@ -27,6 +27,8 @@ public:
 
     // Writes what is queued, and waits for the disk. Raises SystemFailure if frames were lost.
     void close();
+    // The recorders that this process has created and not destroyed.
+    [[nodiscard]] static std::vector<std::shared_ptr<record::Recorder>> all();
 
     [[nodiscard]] const record::Recorder& recorder() const noexcept { return *recorder_; }
     // Returns the reports about the file so far.
