@@ -16,12 +16,16 @@ void Plant::integrate_step(const Vector3& acceleration, const Vector3& rates, do
 }
 
 bool Plant::is_finite() const {
-    return motion_.position.allFinite() && motion_.velocity.allFinite() && motion_.acceleration.allFinite() &&
-           motion_.attitude.coeffs().allFinite() && motion_.rates.allFinite();
+    constexpr double farthest = 1e8, fastest = 1e6;  // as 32-bit numbers, also their squares are finite
+    const auto is_within = [](const Vector3& value, double most) { return (value.array().abs() < most).all(); };
+    return is_within(motion_.position, farthest) && is_within(motion_.velocity, fastest) &&
+           is_within(motion_.acceleration, fastest) && is_within(motion_.rates, fastest) &&
+           motion_.attitude.coeffs().allFinite();
 }
 
 void Plant::rest_at(const Vector3& position, double heading) {
     motion_ = {.position = position, .attitude = to_quaternion({0, 0, heading})};
+    air_velocity_ = Vector3::Zero();
     air_velocity_ = Vector3::Zero();
     touches_ground_ = true;
     thrust_ = load_ = 0;

@@ -95,7 +95,8 @@ public:
     void move_origin(const Vector3& by) { motion_.position += by; }
 
     [[nodiscard]] const Kinematics& motion() const noexcept { return motion_; }
-    // False if forces beyond all measure have made the motion infinite or NaN: `place` is the only way out.
+    // False if forces beyond all measure have made the motion NaN, infinite, or as fast as no vehicle: `place` is the
+    // only way out.
     [[nodiscard]] bool is_finite() const;
     [[nodiscard]] const Channels& channels() const noexcept { return channels_; }
     [[nodiscard]] bool touches_ground() const noexcept { return touches_ground_; }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <random>
 #include <vector>
 
 #include "mavloom/msg/command_long.hpp"
@@ -95,6 +96,27 @@ TEST_F(PairTest, AResetEndsAPush) {
     pair->push({.north_m_s = 3});
     fly(10, four(0.6f));
     EXPECT_EQ(pair->counters().not_finite, 0u);
+}
+
+// Rates grow over many steps before they are infinite, and the messages have 32-bit numbers.
+TEST_F(PairTest, AMotionThatGrowsWithoutLimitGivesNoInfiniteMessages) {
+    options.vehicle.kind = flight::Kind::plane;
+    begin();
+    pair->set_mass(0.05);
+    pair->set_wind({.speed_m_s = 60, .gust_m_s = 60});
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> output(-1, 1);
+    for (int i = 0; i < 5000; ++i) {
+        if (i % 250 == 0) pair->push({100, 100, -100, 2000, 2000, 2000});
+        std::array<float, 16> controls{};
+        for (float& control : controls) control = output(random);
+        for (const Step& step : fly(1, controls)) {
+            const msg::HilSensor& s = step.sensor;
+            for (const float value : {s.xacc, s.yacc, s.zacc, s.xgyro, s.ygyro, s.zgyro, s.diff_pressure})
+                ASSERT_TRUE(std::isfinite(value)) << i;
+        }
+    }
+    EXPECT_GT(pair->counters().not_finite, 0u);
 }
 
 TEST_F(PairTest, TimesAreThoseOfTheStepsAndGpsHasUtc) {
