@@ -43,8 +43,12 @@ void Battery::rest(double dt) noexcept {
     used_mah_ = std::max(used_mah_ - charge_rate * capacity_mah_ * dt, std::min(used_mah_, used_after_rest_));
 }
 
+void Battery::restore() noexcept {
+    if (used_after_rest_ != used_at_start_) used_mah_ = used_after_rest_ = used_at_start_;
+}
+
 void Battery::replace() noexcept {
-    restore();
+    used_mah_ = used_after_rest_ = used_at_start_;
     used_joule_ = current_ = average_current_ = 0;
 }
 

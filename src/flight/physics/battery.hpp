@@ -19,8 +19,8 @@ public:
     void set_remaining(double share) noexcept;
     // It reports that it is empty, and carries the vehicle all the same.
     void report_empty(bool is_empty) noexcept { reports_empty_ = is_empty; }
-    // The charge is that at the start.
-    void restore() noexcept { used_mah_ = used_after_rest_ = used_at_start_; }
+    // After `set_remaining`, the charge is that at the start. Otherwise nothing changes.
+    void restore() noexcept;
     // Call it while the vehicle is disarmed: charges for `dt` seconds, up to the charge at the start.
     void rest(double dt) noexcept;
     // After a boot: all is as at the start.

@@ -621,6 +621,17 @@ TEST(Failsafe, AFailedBatteryRestsAtItsLevelUntilItIsRestored) {
     EXPECT_NEAR(rig.flight.battery().remaining(), 0.8, 0.001);
 }
 
+TEST(Failsafe, TheEndOfOtherFaultsChargesNoBattery) {
+    FlightRig rig(ready);
+    rig.take_off(10);
+    rig.run(60);
+    const double left = rig.flight.battery().remaining();
+    ASSERT_LT(left, 0.97);
+    ASSERT_TRUE(rig.flight.set_fault({.part = FaultPart::battery, .kind = FaultKind::off}).is_accepted());
+    ASSERT_TRUE(rig.flight.set_fault({.part = FaultPart::all, .kind = FaultKind::ok}).is_accepted());
+    EXPECT_EQ(rig.flight.battery().remaining(), left);
+}
+
 TEST(Failsafe, AfterABootTheBatteryIsAsAtTheStart) {
     VehicleOptions options = ready;
     options.battery.start_percent = 80;
