@@ -49,6 +49,7 @@ RingPage::Words RingPage::add_words(std::string_view before, shm::CounterType ty
 void RingPage::name_link(LinkId link, std::string_view name) {
     std::erase(gone_, link);  // in case the link comes back
     if (rows_.size() < max_rows) add_row(link);
+    if (const auto row = rows_.find(link); row != rows_.end()) row->second.has_destination = false;
     while (!page_.name_link(link, name) && !gone_.empty()) {
         page_.forget_link(gone_.front());
         gone_.pop_front();
@@ -94,6 +95,17 @@ void RingPage::add_row(LinkId link) {
                             add_gauge("queue_limit_bytes")});
 }
 
+// The name of a link with name= does not show where it sends to.
+void RingPage::set_destination(const link::LinkInfo& link, const std::vector<link::EndpointInfo>& endpoints, Row& row) {
+    if (row.has_destination) return;
+    const auto its = std::ranges::find(endpoints, link.endpoint, &link::EndpointInfo::id);
+    if (its == endpoints.end()) return;
+    row.has_destination = true;
+    const auto& given = its->endpoint;
+    const auto url = endpoint::Endpoint{given.scheme, given.address, given.path, {}}.label();
+    if (given.calls() && link.name != url) static_cast<void>(page_.name_link(link.id, link.name, url));
+}
+
 void RingPage::refresh(const std::vector<link::LinkInfo>& links, const std::vector<link::EndpointInfo>& endpoints,
                        std::optional<link::EndpointId> inlet, const OfRing& ring, std::span<const OwnCount> own) {
     choose_rows(busiest_links(links, max_rows));
@@ -104,6 +116,7 @@ void RingPage::refresh(const std::vector<link::LinkInfo>& links, const std::vect
             others.add(*link.counters);
             continue;
         }
+        set_destination(link, endpoints, row->second);
         set(row->second.up, link.up ? 1 : 0);
         set(row->second.queued, link.queued_bytes);
         set(row->second.queue_limit, link.queue_limit_bytes);

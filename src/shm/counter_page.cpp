@@ -66,12 +66,15 @@ void store_text(std::array<SharedWords::Word64, n>& words, std::string_view text
     for (std::size_t i = 0; i < n; ++i) words[i].store(copy[i], std::memory_order_release);
 }
 
+// Returns the text before the first NUL, and the one between that and the next NUL.
 template <std::size_t n>
-std::string load_text(const std::array<SharedWords::Word64, n>& words) {
+std::pair<std::string, std::string> load_texts(const std::array<SharedWords::Word64, n>& words) {
     std::array<std::uint64_t, n> copy;
     for (std::size_t i = 0; i < n; ++i) copy[i] = words[i].load(std::memory_order_acquire);
-    const auto* text = reinterpret_cast<const char*>(copy.data());
-    return printable({text, ::strnlen(text, sizeof copy)});
+    const std::string_view all(reinterpret_cast<const char*>(copy.data()), sizeof copy);
+    const auto first = all.substr(0, all.find('\0'));
+    const auto rest = all.substr(std::min(first.size() + 1, all.size()));
+    return {printable(first), printable(rest.substr(0, rest.find('\0')))};
 }
 
 // Every word is stored with release and loaded with acquire. So a reader that sees any new word also sees that the
@@ -104,15 +107,29 @@ std::optional<CounterValue> value_in(const CounterSlot& slot) {
     value.type = static_cast<CounterType>(type);
     const std::uint32_t link = slot.link.load(std::memory_order_acquire);
     if (link != no_link) value.link = LinkId{link};
-    value.label = load_text(slot.label);
+    value.label = load_texts(slot.label).first;
     value.value = slot.value.load(std::memory_order_acquire);
     return value;
 }
 
-std::optional<std::pair<LinkId, std::string>> link_in(const LinkSlot& slot) {
+struct NamedLink {
+    LinkId id;
+    std::string name, sends_to;
+};
+
+std::optional<NamedLink> link_in(const LinkSlot& slot) {
     if (slot.used.load(std::memory_order_acquire) == 0) return std::nullopt;
     const LinkId link{slot.link.load(std::memory_order_acquire)};
-    return std::pair(link, load_text(slot.name));
+    auto [name, sends_to] = load_texts(slot.name);
+    return NamedLink{link, std::move(name), std::move(sends_to)};
+}
+
+std::string text_of_link(std::string_view name, std::string_view sends_to) {
+    std::string text(name);
+    if (sends_to.empty() || name.size() + 1 + sends_to.size() > longest_link_name) return text;
+    text += '\0';
+    text += sends_to;
+    return text;
 }
 
 std::vector<std::uint32_t> all_slots(std::uint32_t count) {
@@ -232,16 +249,17 @@ void CounterPage::remove(Counter* counter) noexcept {
     free_counters_.push_back(index);
 }
 
-bool CounterPage::name_link(LinkId link, std::string_view name) {
+bool CounterPage::name_link(LinkId link, std::string_view name, std::string_view sends_to) {
     auto known = links_.find(link);
     if (known == links_.end()) {
         const auto index = take_last(free_links_);
         if (!index) return false;
         known = links_.emplace(link, *index).first;
     }
+    const auto text = text_of_link(name, sends_to);
     change(links_in(*segment_, slots_)[known->second], [&](LinkSlot& slot) {
         slot.link.store(link.value, std::memory_order_release);
-        store_text(slot.name, name);
+        store_text(slot.name, text);
         slot.used.store(1, std::memory_order_release);
     });
     return true;
@@ -283,7 +301,11 @@ SetupResult<CounterSnapshot> read_counters(std::string_view name, const Trust& t
         if (auto value = read_slot(counters[i], value_in); value && *value)
             snapshot.counters.push_back(std::move(**value));
     for (std::uint32_t i = 0; i < header->links; ++i)
-        if (auto link = read_slot(links[i], link_in); link && *link) snapshot.links.insert(std::move(**link));
+        if (auto read = read_slot(links[i], link_in); read && *read) {
+            auto& link = **read;
+            if (!link.sends_to.empty()) snapshot.sends_to.emplace(link.id, std::move(link.sends_to));
+            snapshot.links.emplace(link.id, std::move(link.name));
+        }
     return snapshot;
 }
 

@@ -13,7 +13,7 @@ namespace mavloom::shm {
 
 inline constexpr std::array<char, 8> page_magic{'M', 'V', 'L', 'S', 'T', 'A', 'T', '\0'};
 inline constexpr std::uint16_t page_major = 1;
-inline constexpr std::uint16_t page_minor = 0;
+inline constexpr std::uint16_t page_minor = 1;
 inline constexpr std::size_t page_header_bytes = 128;
 inline constexpr std::uint32_t max_page_slots = 1 << 20;
 inline constexpr std::uint32_t no_link = 0xffffffff;
@@ -52,7 +52,7 @@ struct LinkSlot {
     SharedWords::Word32 link;
     SharedWords::Word32 used;  // 0: free
     SharedWords::Word64 reserved;
-    std::array<SharedWords::Word64, 13> name;
+    std::array<SharedWords::Word64, 13> name;  // since 1.1, after its NUL: the URL that the link sends to
 };
 static_assert(sizeof(LinkSlot) == 128 && offsetof(LinkSlot, link) == 8 && offsetof(LinkSlot, used) == 12 &&
               offsetof(LinkSlot, name) == 24);

@@ -34,7 +34,7 @@ SetupResult<void> check_kinds(const std::vector<endpoint::Endpoint>& endpoints) 
 
 bool sends_to_one(const observe::Hop& hop, const std::vector<endpoint::Endpoint>& sources) {
     return std::ranges::any_of(hop.links, [&](const observe::HopLink& link) {
-        const auto to = endpoint::parse_endpoint(link.name);
+        const auto to = endpoint::parse_endpoint(link.destination());
         return to && std::ranges::any_of(sources, [&](const endpoint::Endpoint& source) {
                    return endpoint::leads_back(source, source.address.port, *to);
                });

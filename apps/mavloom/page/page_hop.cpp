@@ -77,6 +77,7 @@ Hop hop_of(const std::string& name, const shm::CounterSnapshot& page) {
     }
     for (auto& [id, link] : links) {
         if (const auto known = page.links.find(id); known != page.links.end()) link.name = known->second;
+        if (const auto known = page.sends_to.find(id); known != page.sends_to.end()) link.sends_to = known->second;
         hop.links.push_back(std::move(link));
     }
     if (others.frames_in + others.frames_out != 0) hop.links.push_back(std::move(others));

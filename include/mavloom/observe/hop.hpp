@@ -18,6 +18,7 @@ struct NamedCount {
 // Rates that are not given are reckoned from the counts of earlier reports.
 struct HopLink {
     std::string name;
+    std::string sends_to{};  // a URL; empty: it is the name, or there is none
     bool is_up = true;
     bool has_ended = false;  // a recording was read to its end, so it is not up
     bool is_sum = false;     // of several links; a link's counts move here when it ends, so growth is no news
@@ -27,6 +28,8 @@ struct HopLink {
     std::uint64_t refused = 0;  // frames for a port that nobody listens at
     // Bytes that wait to be sent, and how many may wait. 0: the program has no such queue, or does not report it.
     std::uint64_t queued_bytes = 0, queue_limit_bytes = 0;
+
+    [[nodiscard]] const std::string& destination() const noexcept { return sends_to.empty() ? name : sends_to; }
 };
 
 struct Hop {

@@ -66,12 +66,14 @@ private:
     struct Row {
         Words words;
         Counter *up, *queued, *queue_limit;
+        bool has_destination = false;  // it is known, and beside the name if the name is another
     };
 
     explicit RingPage(shm::CounterPage page);
     [[nodiscard]] Words add_words(std::string_view before, shm::CounterType type, std::optional<LinkId> link);
     void choose_rows(const std::vector<const link::LinkInfo*>& busiest);
     void add_row(LinkId link);
+    void set_destination(const link::LinkInfo& link, const std::vector<link::EndpointInfo>& endpoints, Row& row);
     void remove_row(std::map<LinkId, Row>::iterator row);
 
     shm::CounterPage page_;

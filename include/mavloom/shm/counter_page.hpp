@@ -57,8 +57,9 @@ public:
     // Removes a counter. Its memory may be reused for another one. Ignores null and a counter that is already removed.
     void remove(Counter* counter) noexcept;
 
-    // Gives a link a name; renames it if it already has one. Returns false if the page is full.
-    bool name_link(LinkId link, std::string_view name);
+    // Gives a link a name; renames it if it already has one. `sends_to`: the URL that the link sends to, if the name is
+    // not that; it is left out if both are too long together. Returns false if the page is full.
+    bool name_link(LinkId link, std::string_view name, std::string_view sends_to = {});
     void forget_link(LinkId link);
 
     // If `create` renamed a file of another user, the reason; else empty.
@@ -89,8 +90,9 @@ struct CounterSnapshot {
     bool owner_alive = false;
     std::uint32_t owner_pid = 0;
     WallTime started{};
-    std::vector<CounterValue> counters;  // in the order of the page
-    std::map<LinkId, std::string> links;
+    std::vector<CounterValue> counters;      // in the order of the page
+    std::map<LinkId, std::string> links;     // their names
+    std::map<LinkId, std::string> sends_to;  // the URLs of those that have one beside their name
 };
 
 // Reads a page. Each value is from some moment during the call. Errors as for rings: `not_found`, `bad_input` or

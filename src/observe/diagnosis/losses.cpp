@@ -145,10 +145,11 @@ std::string_view port_of(std::string_view name) {
 }
 
 // Until we opened the port, it was closed.
-bool is_ours(const Evidence& evidence, std::string_view link) {
-    if (port_of(link).empty()) return false;
+bool is_ours(const Evidence& evidence, const HopLink& link) {
+    const auto port = port_of(link.destination());
+    if (port.empty()) return false;
     return std::ranges::any_of(evidence.sources, [&](const Listened& source) {
-        return source.kind == Listened::Kind::listens && port_of(source.name) == port_of(link);
+        return source.kind == Listened::Kind::listens && port_of(source.name) == port;
     });
 }
 
@@ -170,7 +171,7 @@ void find_link_losses(const Evidence& evidence, const Hop& hop, const HopLink& b
     if (const auto counts = injected(before, link); !counts.empty())
         findings.push_back(words::faults_on(hop, link, counts));
     if (const auto more = grown(before.refused, link.refused);
-        more != 0 && !is_ours(evidence, link.name) && !is_open_by_now(evidence, hop, before, link))
+        more != 0 && !is_ours(evidence, link) && !is_open_by_now(evidence, hop, before, link))
         findings.push_back(words::port_refused(hop, link, more));
 }
 

@@ -250,6 +250,15 @@ def plant_router_faults(world):
     return [f"udpin://127.0.0.1:{port}"]
 
 
+def plant_faults_before_a_named_link(world):
+    """The name of the link that leads to the doctor does not show its port."""
+    to, port = world.port(), world.port()
+    world.router("faults-named", f"udpin://127.0.0.1:{to}?in_fault=loss:0.2", f"udpout://127.0.0.1:{port}?name=gcs")
+    sock, vehicle = world.udp_to(to), Vehicle()
+    world.repeat(lambda n: sock.send(vehicle.next()))
+    return [f"udpin://127.0.0.1:{port}"]
+
+
 def plant_split_stream(world):
     port = world.port()
     socks, vehicle = [world.udp_to(port), world.udp_to(port)], Vehicle()
@@ -466,6 +475,7 @@ PLANTED = {
     plant_two_links: "two-links",
     plant_two_simulators_together: "two-senders",
     plant_router_faults: "faults-on",
+    plant_faults_before_a_named_link: "faults-on",
     plant_split_stream: "split-stream",
     plant_duplicates: "duplicates",
     plant_no_heartbeat: "no-heartbeat",

@@ -263,6 +263,16 @@ TEST_F(DiagnosisTest, APortThatWasOpenedMeanwhileIsNotClosed) {
     EXPECT_THAT(ids(evidence), ElementsAre("port-refused")) << "it is closed again";
 }
 
+TEST_F(DiagnosisTest, APortThatOnlyTheDoctorHasOpenWasNotClosedByMistake) {
+    source().kind = Listened::Kind::listens;
+    source().name = "udpin://127.0.0.1:14550";
+    evidence.hops_before = {
+        {.name = "router", .links = {{.name = "tablet", .sends_to = "udpout://127.0.0.1:14550", .refused = 5}}}};
+    evidence.hops_after = evidence.hops_before;
+    evidence.hops_after.front().links.front().refused = 95;
+    EXPECT_THAT(ids(evidence), IsEmpty());
+}
+
 TEST_F(DiagnosisTest, TheCountsOfALinkThatClosedAreOld) {
     evidence.hops_before = {{.name = "router", .links = {{.name = "closed links", .is_sum = true}}}};
     evidence.hops_after = evidence.hops_before;

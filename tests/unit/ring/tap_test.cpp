@@ -278,6 +278,35 @@ TEST(RingPage, ALinkThatWasNeverUpHasANameAndItsState) {
     EXPECT_THAT(up, ::testing::ElementsAre(std::pair(LinkId{1}, 0u), std::pair(LinkId{2}, 1u)));
 }
 
+TEST(RingPage, ALinkWithANameShowsWhereItSendsTo) {
+    const RingName name;
+    auto page = RingPage::create(name.text(), 0600);
+    ASSERT_TRUE(page);
+    const std::string to_station = "udpout://127.0.0.1:14550", to_tablet = "udpout://10.0.0.2:14550";
+    const link::LinkCounters counters;
+    const link::EndpointCounters of_endpoint;
+    std::vector<link::LinkInfo> links;
+    std::vector<link::EndpointInfo> endpoints;
+    for (const auto& url :
+         {to_station + "?name=station&mtu=0", to_tablet, std::string("udpin://0.0.0.0:14540?name=in")}) {
+        const auto id = static_cast<std::uint32_t>(links.size() + 1);
+        const auto endpoint = endpoint::parse_endpoint(url);
+        ASSERT_TRUE(endpoint);
+        endpoints.push_back({.id = link::EndpointId{id}, .endpoint = *endpoint, .counters = &of_endpoint});
+        links.push_back({LinkId{id}, link::EndpointId{id}, endpoint->label(), true, Rank::own, &counters});
+        page->name_link(LinkId{id}, endpoint->label());
+    }
+    const auto destinations = [&] {
+        page->refresh(links, endpoints, {}, {});
+        const auto seen = shm::read_counters(name.text());
+        return seen ? seen->sends_to : std::map<LinkId, std::string>{};
+    };
+    EXPECT_THAT(destinations(), ::testing::ElementsAre(std::pair(LinkId{1}, to_station)));
+    page->link_removed(LinkId{1});
+    page->name_link(LinkId{1}, "station");
+    EXPECT_THAT(destinations(), ::testing::ElementsAre(std::pair(LinkId{1}, to_station))) << "it came again";
+}
+
 TEST(RingPage, KeepsTheNamesOfLinksThatWentWhileThereIsRoom) {
     const RingName name;
     auto page = RingPage::create(name.text(), 0600);

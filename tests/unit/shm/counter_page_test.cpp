@@ -100,6 +100,24 @@ TEST(CounterPage, CutsWhatIsTooLong) {
     EXPECT_EQ(read(name).links.at(LinkId{0}), std::string(104, 'n'));
 }
 
+TEST(CounterPage, ALinkWithANameAlsoHasTheUrlThatItSendsTo) {
+    const RingName name;
+    auto page = create(name);
+    const std::string url = "udpout://127.0.0.1:14550", fits(104 - 1 - url.size(), 'n'), full(104, 'n');
+    page.name_link(LinkId{1}, "gcs", url);
+    page.name_link(LinkId{2}, url);
+    page.name_link(LinkId{3}, fits, url);
+    page.name_link(LinkId{4}, fits + "n", url);
+    page.name_link(LinkId{5}, full, url);
+    page.name_link(LinkId{6}, "gcs", url);
+    page.name_link(LinkId{6}, "tablet");
+    const auto snapshot = read(name);
+    EXPECT_THAT(snapshot.links,
+                UnorderedElementsAre(Pair(LinkId{1}, "gcs"), Pair(LinkId{2}, url), Pair(LinkId{3}, fits),
+                                     Pair(LinkId{4}, fits + "n"), Pair(LinkId{5}, full), Pair(LinkId{6}, "tablet")));
+    EXPECT_THAT(snapshot.sends_to, UnorderedElementsAre(Pair(LinkId{1}, url), Pair(LinkId{3}, url)));
+}
+
 TEST(CounterPage, GoesWithItsOwner) {
     const RingName name;
     { auto page = create(name); }
@@ -198,7 +216,7 @@ TEST(CounterPage, DamagedFilesAreErrors) {
         EXPECT_THAT(snapshot.error().text, HasSubstr(text));
     };
     expect_error(0, 'X', "not a Mavloom counter page");
-    expect_error(8, 3, "version 3.0");
+    expect_error(8, 3, "version 3.1");
     expect_error(12, 9, "byte order");
     expect_error(17, 9, "truncated");
     expect_error(23, 9, "truncated");
