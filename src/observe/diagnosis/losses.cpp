@@ -94,7 +94,7 @@ bool is_explained(const Evidence& evidence, const Listened& source, const Sender
     return loss.lost <= std::max(bad, source.count("crc_error")) + least_lost;
 }
 
-void find_loss(const Evidence& evidence, const SenderLoss& loss, Findings& findings) {
+void find_loss(const Evidence& evidence, const SenderLoss& loss, words::Faults faults, Findings& findings) {
     const auto* const link = evidence.link(loss.link);
     if (!is_lossy(loss) || link == nullptr || is_compared(evidence, link->source, loss.source)) return;
     const auto& source = evidence.sources[link->source];
@@ -103,17 +103,16 @@ void find_loss(const Evidence& evidence, const SenderLoss& loss, Findings& findi
     if (sender == nullptr || !sender->has_sequence || arrival_of(evidence, link->source, *sender) != Arrival::usual)
         return;
     const bool is_alone = sender->links.size() == 1;
-    if (is_alone && sender->has_regular_gaps())
+    if (faults == words::Faults::off && is_alone && sender->has_regular_gaps())
         findings.push_back(words::regular_gaps(evidence, loss, sender->station_loss()));
-    else findings.push_back(words::lost_before(evidence, loss, radio_on(evidence, loss.link)));
+    else findings.push_back(words::lost_before(evidence, loss, radio_on(evidence, loss.link), faults));
 }
 
 }  // namespace
 
-// While a program of this machine injects faults, its findings stand instead: other losses may be theirs.
 void find_losses(const Evidence& evidence, Findings& findings) {
-    if (injects_faults(evidence)) return;
-    for (const auto& loss : evidence.losses) find_loss(evidence, loss, findings);
+    const auto faults = injects_faults(evidence) ? words::Faults::on : words::Faults::off;
+    for (const auto& loss : evidence.losses) find_loss(evidence, loss, faults, findings);
 }
 
 void find_own_losses(const Evidence& evidence, Findings& findings) {

@@ -35,7 +35,10 @@ struct WrongMessage {
 [[nodiscard]] Finding wrong_dialect(const std::string& link, std::span<const WrongMessage> messages);
 
 // ---- losses
-[[nodiscard]] Finding lost_before(const Evidence& evidence, const SenderLoss& loss, const RadioReport* radio);
+// Whether a program that was examined injects faults: losses may be theirs.
+enum class Faults : std::uint8_t { off, on };
+[[nodiscard]] Finding lost_before(const Evidence& evidence, const SenderLoss& loss, const RadioReport* radio,
+                                  Faults faults);
 [[nodiscard]] Finding regular_gaps(const Evidence& evidence, const SenderLoss& loss, double station_loss);
 [[nodiscard]] Finding kernel_drop(const Listened& source, std::uint64_t datagrams, std::uint64_t lost_frames);
 [[nodiscard]] Finding receive_buffer(const Listened& source, double frames_per_s);

@@ -23,10 +23,17 @@ std::string radio_text(const RadioReport* radio) {
 
 }  // namespace
 
-Finding lost_before(const Evidence& evidence, const SenderLoss& loss, const RadioReport* radio) {
+Finding lost_before(const Evidence& evidence, const SenderLoss& loss, const RadioReport* radio, Faults faults) {
     auto finding = of_link("lost-before", Severity::error, evidence, loss.link, loss.source);
     finding.what = fmt::format("{} of its frames did not arrive here: {} of {} are missing in its sequence numbers.",
                                percent(loss_ratio(loss)), loss.lost, loss.received - loss.duplicate + loss.lost);
+    if (faults == Faults::on) {
+        finding.severity = Severity::warning;
+        finding.why = "Faults that are injected on purpose (faults-on) may explain some or all of it." +
+                      radio_text(radio);
+        finding.remedy = "End the faults, then listen again: a loss that remains has another cause.";
+        return finding;
+    }
     finding.why = fmt::format("{}, so they were lost before: by a radio, a network, or a program.{}",
                               evidence.is_recorded ? "The recording is whole" : "This machine dropped none of them",
                               radio_text(radio));

@@ -140,14 +140,17 @@ TEST_F(DiagnosisTest, CopiesButForTheirTimesAreTwoSenders) {
     EXPECT_THAT(ids(evidence), ElementsAre("two-senders"));
 }
 
-TEST_F(DiagnosisTest, FaultsOfARouterExplainLosses) {
+TEST_F(DiagnosisTest, FaultsOfARouterMayExplainLossesAndHideNone) {
     loss().lost = 300;
     evidence.hops_before = {{.name = "router", .links = {{.name = "serial", .losses = {{"fault_lost", 10}}}}}};
     evidence.hops_after = evidence.hops_before;
     EXPECT_THAT(ids(evidence), ElementsAre("lost-before"));
     evidence.hops_after.front().links.front().losses.front().count = 310;
-    ASSERT_THAT(ids(evidence), ElementsAre("faults-on"));
-    EXPECT_THAT(diagnose(evidence).front().what, ::testing::EndsWith(": fault_lost 300."));
+    ASSERT_THAT(ids(evidence), ElementsAre("faults-on", "lost-before"));
+    const auto findings = diagnose(evidence);
+    EXPECT_THAT(findings.front().what, ::testing::EndsWith(": fault_lost 300."));
+    EXPECT_EQ(findings.back().severity, Finding::Severity::warning);
+    EXPECT_THAT(findings.back().why, ::testing::HasSubstr("faults-on"));
 }
 
 TEST_F(DiagnosisTest, APortThatIsTakenHidesNoOtherThatIsSilent) {
