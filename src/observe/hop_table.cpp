@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <functional>
+#include <string_view>
 #include <utility>
 
 #include "mavloom/base/durations.hpp"
@@ -19,10 +20,14 @@ double rate(std::uint64_t from, std::uint64_t to, Nanoseconds in) {
     return static_cast<double>(to - from) / seconds(in);
 }
 
+// Faults also send on what they damage.
+bool is_damage(std::string_view loss) { return loss == "fault_corrupted" || loss == "fault_cut"; }
+
 // `lost` since the alarm began, of `loss.count` since the program started.
 std::string text_of(const std::string& name, const NamedCount& loss, std::uint64_t lost) {
     const auto in_all = lost == loss.count ? std::string() : fmt::format(", {} in all", loss.count);
-    return fmt::format("{} lost {}{}: {}{}{}", name, lost, in_all, loss.name, loss.help.empty() ? "" : ", ", loss.help);
+    return fmt::format("{} {} {}{}: {}{}{}", name, is_damage(loss.name) ? "damaged" : "lost", lost, in_all, loss.name,
+                       loss.help.empty() ? "" : ", ", loss.help);
 }
 
 }  // namespace

@@ -26,12 +26,11 @@ consteval LossName link_loss(std::string_view name) {
     return {name, std::ranges::find(link::link_counters, name, &link::LinkCounter::name)->help};
 }
 
-// Of a link. Frames that are not sent because nobody listens at a port (`refused`) are no loss.
+// Frames that a link lost or damaged. Those that are not sent because nobody listens at a port (`refused`) are no loss.
 inline constexpr std::array link_losses{
-    link_loss("lost"),           link_loss("crc_error"),  link_loss("bad_signature"),
-    link_loss("queue_bytes"),    link_loss("queue_age"),  link_loss("frames_not_sent"),
-    link_loss("fault_blackout"), link_loss("fault_lost"), link_loss("fault_corrupted"),
-    link_loss("fault_cut"),      link_loss("fault_queue")};
+    link_loss("lost"),       link_loss("crc_error"),       link_loss("bad_signature"), link_loss("queue_bytes"),
+    link_loss("queue_age"),  link_loss("frames_not_sent"), link_loss("held_dropped"),  link_loss("fault_blackout"),
+    link_loss("fault_lost"), link_loss("fault_corrupted"), link_loss("fault_cut"),     link_loss("fault_queue")};
 
 // Without losses: the receiver has its own numbers.
 [[nodiscard]] observe::HopLink hop_link_of(const feed::Receiver::OfSource& source);

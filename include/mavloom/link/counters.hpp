@@ -72,7 +72,7 @@ inline constexpr std::array<LinkCounter, 30> link_counters{{
     {{"unconfirmed", "frames not sent to a UDP peer that was heard only once", &LinkCounters::unconfirmed}, false},
     {{"held_dropped", "pieces that link faults had to hold, dropped for lack of room or at the end of the link",
       &LinkCounters::held_dropped},
-     false},
+     true},
     {{"fault_blackout", "pieces that faults dropped in black-outs", &LinkCounters::fault_blackout}, true},
     {{"fault_lost", "pieces that faults dropped at random", &LinkCounters::fault_lost}, true},
     {{"fault_duplicated", "pieces that faults passed twice", &LinkCounters::fault_duplicated}, true},

@@ -42,11 +42,11 @@ std::uint64_t missing_in_rings(const Evidence& evidence) {
     return sum;
 }
 
-// Frames and pieces that fault= drops or damages. Inward, a piece may hold several frames.
+// Frames and pieces that fault= drops or damages. Inward, a piece may hold several frames. Only faults hold pieces.
 std::vector<NamedCount> injected(const HopLink& before, const HopLink& after) {
     std::vector<NamedCount> counts;
     for (const auto& loss : after.losses) {
-        if (!loss.name.starts_with("fault_")) continue;
+        if (!loss.name.starts_with("fault_") && loss.name != "held_dropped") continue;
         if (const auto more = grown(count_of(before.losses, loss.name), loss.count); more != 0)
             counts.push_back({loss.name, more});
     }

@@ -153,6 +153,13 @@ TEST_F(DiagnosisTest, FaultsOfARouterMayExplainLossesAndHideNone) {
     EXPECT_THAT(findings.back().why, ::testing::HasSubstr("faults-on"));
 }
 
+TEST_F(DiagnosisTest, WhatFaultsHeldAndDroppedWasLostOnPurpose) {
+    evidence.hops_before = {{.name = "router", .links = {{.name = "serial"}}}};
+    evidence.hops_after = {{.name = "router", .links = {{.name = "serial", .losses = {{"held_dropped", 7}}}}}};
+    ASSERT_THAT(ids(evidence), ElementsAre("faults-on"));
+    EXPECT_THAT(diagnose(evidence).front().what, ::testing::EndsWith(": held_dropped 7."));
+}
+
 TEST_F(DiagnosisTest, APortThatIsTakenHidesNoOtherThatIsSilent) {
     silence();
     source().is_asked = false;

@@ -493,6 +493,21 @@ TEST_F(HopTest, AnAlarmCountsFromTheFirstLoss) {
     EXPECT_THAT(alarms(), ElementsAre("drop warning 0/0: relay lost 608: stopped"));
 }
 
+TEST_F(HopTest, FaultsThatDamageFramesLoseNone) {
+    const auto report = [&](Nanoseconds at, std::vector<NamedCount> losses) {
+        inspector.set_hops({{.name = "router", .links = {{.name = "radio", .losses = std::move(losses)}}}}, wall(at),
+                           mono(at));
+        tick(at);
+    };
+    report(0s, {});
+    report(1s, {{"fault_corrupted", 4, "inverted a bit"}, {"fault_cut", 3}, {"fault_lost", 2}, {"held_dropped", 1}});
+    EXPECT_THAT(alarms(), ::testing::UnorderedElementsAre(
+                              "drop warning 0/0: router: radio damaged 4: fault_corrupted, inverted a bit",
+                              "drop warning 0/0: router: radio damaged 3: fault_cut",
+                              "drop warning 0/0: router: radio lost 2: fault_lost",
+                              "drop warning 0/0: router: radio lost 1: held_dropped"));
+}
+
 TEST_F(HopTest, AClosedLinkRaisesNoSecondAlarm) {
     const std::string sum = "all other links";
     const auto report = [&](Nanoseconds at, std::vector<HopLink> links) {
