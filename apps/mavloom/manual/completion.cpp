@@ -11,6 +11,8 @@
 #include "manual/candidates.hpp"
 #include "mavloom/control/control.hpp"
 #include "mavloom/dialect/dialect.hpp"
+#include "mavloom/link/links.hpp"
+#include "mavloom/shm/counter_page.hpp"
 #include "mavloom/shm/ring_info.hpp"
 #include "output.hpp"
 
@@ -94,6 +96,16 @@ std::vector<std::string> field_names(const std::string& message) {
     return names;
 }
 
+// A killed program leaves its counter page behind.
+std::vector<std::string> running_names() {
+    auto names = shm::counter_page_names();
+    std::erase_if(names, [](const std::string& name) {
+        const auto page = shm::read_counters(name, {.user = link::Links::owner_of_inlets()});
+        return !page || !page->owner_alive;
+    });
+    return names;
+}
+
 // Of the endpoints, too, which `ctl NAME remove` takes.
 std::vector<std::string> link_names(const std::string& program) {
     constexpr std::chrono::milliseconds patience{300};
@@ -110,8 +122,7 @@ std::vector<std::string> link_names(const std::string& program) {
 
 Exit print_words(const Arguments& self, const std::vector<std::string>& words) {
     const auto found = candidates(
-        self.program(), words,
-        {message_names, shm::ring_names, shm::counter_page_names, ctl_actions, field_names, link_names});
+        self.program(), words, {message_names, shm::ring_names, running_names, ctl_actions, field_names, link_names});
     std::string text;
     for (const auto& candidate : found.all)
         text += candidate.word + (candidate.description.empty() ? "" : "\t" + candidate.description) + "\n";

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The manual pages, read by mandoc, and completion in real bash, zsh and fish."""
 import os
+import pathlib
 import pty
 import re
 import select
@@ -80,6 +81,20 @@ def test_running_programs_and_rings_are_offered(run, spawn, udp_port):
     harness.wait_for(lambda: words(run, "shm", "stat", name[:-1]) == [name], what="its ring")
     assert f"shm://{name}" in words(run, "listen", "shm://comp")
     assert words(run, "ctl", name, "remove", "ta") == ["tablet"]
+
+
+def test_a_killed_program_is_not_offered(run, spawn):
+    name = f"killed-{os.getpid()}"
+    page = pathlib.Path(f"/dev/shm/mavloom.{name}.stat")
+    router = spawn("route", "udpout://127.0.0.1:9", "--name", name)
+    try:
+        harness.wait_for(lambda: words(run, "ctl", name) == [name], what="the router's counter page")
+        router.kill()
+        assert page.exists()
+        assert words(run, "ctl", name) == []
+    finally:
+        router.kill()
+        page.unlink(missing_ok=True)
 
 
 @pytest.fixture
