@@ -537,7 +537,7 @@ def world(spawn, tmp_path):
 
 
 class SmallRing:
-    """A router with a ring of 64 KiB, which holds fewer than 800 frames of a vehicle."""
+    """A router with a ring of 64 KiB, which holds 1,024 frames of a vehicle."""
 
     def __init__(self, world, run, fault, *arguments):
         port = world.port()
@@ -553,7 +553,7 @@ class SmallRing:
         return json.loads(self.run("shm", "stat", self.name, "--json").stdout)["readers"]
 
     def send_until(self, counter, value):
-        """Sends a few frames at a time, until a counter of the router's page has grown by so many."""
+        """Sends so many frames, then a few at a time, until a counter of the router's page has grown by so many."""
         def count():
             return json.loads(self.run("stat", self.name, "--json").lines[0])[counter]
 
@@ -561,6 +561,7 @@ class SmallRing:
             self.send(10)
             return count() >= before + value
         before = count()
+        self.send(value)
         harness.wait_for(is_reached, what=f"{value} {counter}")
 
 
@@ -575,8 +576,7 @@ def test_a_ring_that_overtook_the_doctor_is_found(world, run):
     harness.wait_for(ring.readers, what="the doctor to read the ring")
     ring.send_until("ring_records", 1)
     with standing_still(doctor):
-        ring.send(1000)
-        ring.send_until("ring_records", 850)
+        ring.send_until("ring_records", 1200)
     harness.wait_for(lambda: ring.readers()[0]["behind_bytes"] == 0, what="the doctor to read what is left")
     assert findings_at_end(doctor) == {"ring-lapped"}
 

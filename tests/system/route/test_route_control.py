@@ -268,7 +268,7 @@ def test_without_a_router_the_names_of_others_are_listed(spawn, run, tmp_path):
     spawn("sim", "--listen", "tcpin://127.0.0.1:0", "--name", "bird", env=env)
     harness.wait_for(lambda: run("ctl", "bird", "state", env=env).status == 0, what="the simulator's answer")
 
-    for command in (("stat",), ("ctl", "router", "links")):
+    for command in (("stat", "nobody-at-all"), ("ctl", "nobody-at-all", "links")):
         done = run(*command, env=env)
         assert done.status == 1 and done.stderr.endswith("; running: bird (simulator)\n"), done
 

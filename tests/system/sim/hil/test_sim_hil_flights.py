@@ -135,4 +135,5 @@ def test_odd_times_of_answers_are_counted_and_do_not_stop_the_flight(hil, stand_
     report = stand_in(simulator.hil_port, **SHORT, **oddity).said("report")
     assert report["time_errors"] == 0
     harness.wait_for(lambda: simulator.hil()["state"] == "waiting", what="the end of the link")
-    assert simulator.hil()[counter] == pytest.approx(report["answers"], abs=2)
+    state = simulator.hil()
+    assert report["answers"] - 2 <= state[counter] <= state["steps"]  # the stand-in answers on until it has closed
