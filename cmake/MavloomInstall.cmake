@@ -16,7 +16,8 @@ write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/mavloomConfigVersi
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/mavloomConfig.cmake" "${CMAKE_CURRENT_BINARY_DIR}/mavloomConfigVersion.cmake"
         DESTINATION "${package_folder}" COMPONENT mavloom_development)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/guide" "${PROJECT_SOURCE_DIR}/docs/formats"
-        DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT mavloom_runtime FILES_MATCHING PATTERN "*.md")
+        DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT mavloom_runtime FILES_MATCHING PATTERN "*.md"
+        PATTERN "python.md" EXCLUDE PATTERN "from-pymavlink.md" EXCLUDE)  # python3-mavloom has them
 configure_file("${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${CMAKE_CURRENT_BINARY_DIR}/CHANGELOG.md" COPYONLY)
 execute_process(COMMAND gzip -9nf "${CMAKE_CURRENT_BINARY_DIR}/CHANGELOG.md" COMMAND_ERROR_IS_FATAL ANY)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${CMAKE_CURRENT_BINARY_DIR}/CHANGELOG.md.gz"

@@ -42,7 +42,8 @@ def check_files(packages):
         assert file in files["mavloom"], file
     assert int(call("dpkg-deb", "--field", packages["mavloom"], "Installed-Size")) < LARGEST_KIB
     assert "/usr/include/mavloom/wire/frame.hpp" in files["libmavloom-dev"]
-    assert "/usr/lib/python3/dist-packages/mavloom/__init__.py" in files["python3-mavloom"]
+    for file in ("/usr/lib/python3/dist-packages/mavloom/__init__.py", "/usr/share/doc/mavloom/guide/python.md"):
+        assert file in files["python3-mavloom"], file
     for name in NAMES:
         assert f"/usr/share/doc/{name}/copyright" in files[name]
         assert all(line.split()[1] == "root/root" for line in files[name].values())

@@ -383,8 +383,10 @@ def test_prometheus_reads_the_metrics(web):
     def samples():
         families = text_string_to_metric_families(server.get("/metrics"))
         return {(s.name, *map(s.labels.get, ("message", "instance"))): s.value for f in families for s in f.samples}
-    got = harness.wait_for(lambda: (s := samples())["mavloom_hop_frames_in_total", None, None] == 2 and s, what="both")
-    assert got["mavloom_message_frames_total", "BATTERY_STATUS", "0"] == 1
+    hop_frames = "mavloom_hop_frames_in_total", None, None
+    battery_frames = "mavloom_message_frames_total", "BATTERY_STATUS", "0"
+    got = harness.wait_for(lambda: (s := samples())[hop_frames] == 2 and battery_frames in s and s, what="both")
+    assert got[battery_frames] == 1
     assert got["mavloom_message_frames_total", "HEARTBEAT", None] == 1
     assert got["mavloom_vehicle_armed", None, None] == 1
     assert got["mavloom_server_requests_total", None, None] >= 1
