@@ -363,19 +363,24 @@ print(recording.summary().frames)
 """
 
 
+def all_that_was_written(terminal):
+    """The kernel may pass it on in pieces."""
+    seen = b""
+    with open(terminal, "rb", buffering=0) as file, contextlib.suppress(OSError):  # EIO: the end
+        while piece := file.read(1 << 16):
+            seen += piece
+    return seen.decode()
+
+
 def text_on_terminal(flight, progress, environment):
     ours, theirs = pty.openpty()
     fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 60, 0, 0))
     with subprocess.Popen([sys.executable, "-c", SLOW_READER, flight, progress], stdout=subprocess.PIPE, stderr=theirs,
                           env=environment, text=True) as process:
         os.close(theirs)
-        seen = b""
-        with contextlib.suppress(OSError):  # the end of a terminal
-            while chunk := os.read(ours, 4096):
-                seen += chunk
-        os.close(ours)
+        seen = all_that_was_written(ours)
         assert process.stdout.read() == "40087\n", seen
-    return seen.decode()
+    return seen
 
 
 def test_progress_is_shown_on_a_terminal_if_it_is_asked_for(flight, child_environment):
@@ -418,7 +423,6 @@ def test_columns_show_progress_on_a_terminal(flight, child_environment, tmp_path
     done = subprocess.run([sys.executable, "-c", SLOW_COLUMNS, flight, tmp_path / "pipe", what], stdout=subprocess.PIPE,
                           stderr=theirs, env=child_environment, text=True, check=True)
     os.close(theirs)
-    seen = os.read(ours, 1 << 16).decode()
-    os.close(ours)
+    seen = all_that_was_written(ours)
     assert int(done.stdout) == len(mavloom.columns(flight, "ATTITUDE"))
     assert re.search(r"\r *\d+ frames", seen) and re.search(r"\r +\r$", seen), seen
