@@ -142,14 +142,16 @@ def test_without_sources_and_rings_serial_ports_are_named(alone, program, tmp_pa
 
 # The ports of argv[2:] are taken, as by a ground station. Prints what `top` shows beside a simulator without a ring.
 PORTS_TAKEN = r"""
-import json, socket, subprocess, sys
+import json, socket, subprocess, sys, time
 program, ports = sys.argv[1], [int(port) for port in sys.argv[2:]]
 taken = [socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for port in ports]
 for sock, port in zip(taken, ports):
     sock.bind(("0.0.0.0", port))
 sim = subprocess.Popen([program, "sim", "--to", "udpout://127.0.0.1:14540", "--name", "top-sim"],
                        stderr=subprocess.PIPE, text=True)
-subprocess.run([program, "ctl", "top-sim", "wait", "ready"], capture_output=True)
+ready = [program, "ctl", "top-sim", "wait", "ready"]
+while sim.poll() is None and subprocess.run(ready, capture_output=True).returncode:
+    time.sleep(0.1)
 done = subprocess.run([program, "top", "--once", "--for", "3s"], capture_output=True, text=True)
 sim.terminate()
 sim.communicate()
