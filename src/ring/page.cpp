@@ -95,7 +95,7 @@ void RingPage::add_row(LinkId link) {
                             add_gauge("queue_limit_bytes")});
 }
 
-// The name of a link with name= does not show where it sends to.
+// A link that has name= does not show by its name where it sends.
 void RingPage::set_destination(const link::LinkInfo& link, const std::vector<link::EndpointInfo>& endpoints, Row& row) {
     if (row.has_destination) return;
     const auto its = std::ranges::find(endpoints, link.endpoint, &link::EndpointInfo::id);

@@ -252,41 +252,33 @@ def test_a_recording_ends_with_its_link(peer, tmp_path):
     vehicle.socket.close()
 
 
-def test_an_exit_keeps_a_recording_that_is_left_open(tmp_path, child_environment):
-    code = """import mavloom, socket, sys, time
+LEFT_OPEN = """import mavloom, socket, sys, time
 link = mavloom.connect("udpin://127.0.0.1:0")
 recorder = link.record(sys.argv[1])
+count = int(sys.argv[2])
 with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as far:
-    for i in range(300):
-        far.sendto(mavloom.Dialect().encode("ATTITUDE", time_boot_ms=i), ("127.0.0.1", link.port))
+    for i in range(count):
+        far.sendto(mavloom.Dialect().encode("ATTITUDE", time_boot_ms=i, yawspeed=1), ("127.0.0.1", link.port))
         while link.stats.frames_in <= i:
             time.sleep(0.001)
+print("heard", flush=True)
 """
-    done = subprocess.run([sys.executable, "-c", code, tmp_path / "x.tlog"], capture_output=True, text=True,
+
+
+def test_an_exit_keeps_a_recording_that_is_left_open(tmp_path, child_environment):
+    done = subprocess.run([sys.executable, "-c", LEFT_OPEN, tmp_path / "x.tlog", "300"], capture_output=True, text=True,
                           env=child_environment)
-    assert (done.returncode, done.stderr) == (0, "")
+    assert (done.returncode, done.stdout, done.stderr) == (0, "heard\n", "")
     assert [m.time_boot_ms for m in mavloom.read(tmp_path / "x.tlog")] == list(range(300))
 
 
 def test_an_exit_waits_for_a_disk_that_is_slow(tmp_path, child_environment):
-    code = """import mavloom, socket, sys, time
-link = mavloom.connect("udpin://127.0.0.1:0")
-recorder = link.record(sys.argv[1])
-with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as far:
-    for i in range(2000):
-        far.sendto(mavloom.Dialect().encode("ATTITUDE", time_boot_ms=i, yawspeed=1), ("127.0.0.1", link.port))
-        while i % 50 == 0 and link.stats.frames_in <= i:
-            time.sleep(0.001)
-    while link.stats.frames_in < 2000:
-        time.sleep(0.001)
-print("heard", flush=True)
-"""
     fifo = tmp_path / "slow"  # holds 64 kB, less than the recording
     os.mkfifo(fifo)
-    with subprocess.Popen([sys.executable, "-c", code, fifo], stdout=subprocess.PIPE, text=True,
+    with subprocess.Popen([sys.executable, "-c", LEFT_OPEN, fifo, "2000"], stdout=subprocess.PIPE, text=True,
                           env=child_environment) as child, open(fifo, "rb") as disk:
         assert child.stdout.readline() == "heard\n"
-        time.sleep(0.5)  # the disk
+        time.sleep(0.5)  # so slow is the disk: a Python that does not wait for it has ended by then
         (tmp_path / "x.tlog").write_bytes(disk.read())
     assert [m.time_boot_ms for m in mavloom.read(tmp_path / "x.tlog")] == list(range(2000))
 

@@ -12,8 +12,8 @@ namespace mavloom::control {
 // An answer that is copied and formatted in pieces. This keeps each turn of the owner's loop short, and limits the
 // memory that a slow client occupies.
 struct Report {
-    // Set if the answer is not known yet; the other two are then empty. The owner's thread calls it, and calls `then`
-    // once the answer is known.
+    // For an answer that is not known yet; the two members below are then empty. The owner's thread calls it once, and
+    // later calls `then` with the answer.
     std::function<void(std::function<void(Report)> then)> answer_later{};
     // The owner's thread calls this between two turns. It copies one piece of the data, in less than a millisecond, and
     // returns true while something is left. Empty if there is nothing to copy.

@@ -118,7 +118,7 @@ private:
 };
 
 // Reports of the simulator, as those of report.hpp: a "hil" line for each vehicle, or for those with this system id.
-// The lines `first` stand before them.
+// `first`: lines to put before them.
 [[nodiscard]] control::Report report_hil(HilSimulator& simulator, std::optional<SystemId> system,
                                          std::string first = {});
 // The report at the end of a run: JSON lines, or a text for people.

@@ -60,7 +60,7 @@ struct TimedOrder {
 struct SimulatorOptions {
     // Of the flight clock. Protocol time-outs run in real time, but at `max_speed` by the flight clock, too.
     double speed = 1;
-    // The vehicles do not fly on. At `max_speed`, or if `is_repeatable`, the simulator has then ended.
+    // When the vehicles stop flying. At `max_speed`, or if `is_repeatable`, the simulator ends then, too.
     sim::FlightTime flight_end = sim::FlightTime::max();
     WallTime utc_at_start{};  // UTC at flight time 0; the epoch: the time at which it begins
     std::vector<TimedOrder> orders{};

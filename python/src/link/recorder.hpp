@@ -27,7 +27,7 @@ public:
 
     // Writes what is queued, and waits for the disk. Raises SystemFailure if frames were lost.
     void close();
-    // The recorders that this process has created and not destroyed.
+    // All recorders of this process that still exist.
     [[nodiscard]] static std::vector<std::shared_ptr<record::Recorder>> all();
 
     [[nodiscard]] const record::Recorder& recorder() const noexcept { return *recorder_; }

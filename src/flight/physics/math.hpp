@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The functions of <cmath> that are not exact, computed from +, -, *, / and sqrt, which IEEE 754 defines to the last
-// bit. Private to flight, sim and hil, which call no others: so a flight has the same bytes
-// on each x86-64 processor.
+// bit. Private to flight, sim and hil, which call no others: so a flight has the same bytes on each
+// x86-64 processor.
 //
 // The C library's own depend on its version, and on whether the processor has FMA. The results here are within 4 units
 // in the last place for angles within 1e5 rad; sines and cosines are within 2 for those within 1000 rad. NaN gives NaN.

@@ -26,7 +26,6 @@ bool Plant::is_finite() const {
 void Plant::rest_at(const Vector3& position, double heading) {
     motion_ = {.position = position, .attitude = to_quaternion({0, 0, heading})};
     air_velocity_ = Vector3::Zero();
-    air_velocity_ = Vector3::Zero();
     touches_ground_ = true;
     thrust_ = load_ = 0;
 }

@@ -24,7 +24,7 @@ public:
     void resume();
     // Call it 50 times a second. Completes the boot, and disarms a vehicle that has been standing for too long.
     void update();
-    // The vehicle hit the ground and broke: disarms it.
+    // Disarms a vehicle that hit the ground and broke.
     void on_crash();
     void reboot();
     void set_calibrating(bool calibrating) noexcept { is_calibrating_ = calibrating; }

@@ -242,21 +242,22 @@ def plant_two_simulators_together(world):
     return [f"udpin://127.0.0.1:{port}"]
 
 
-def plant_router_faults(world):
+def behind_a_router(world, name, in_options="", out_options=""):
+    """A vehicle, a router, the router's ring, and the port that it sends to."""
     to, port = world.port(), world.port()
-    world.router("faults", f"udpin://127.0.0.1:{to}?in_fault=loss:0.2", f"udpout://127.0.0.1:{port}")
+    _, ring = world.router(name, f"udpin://127.0.0.1:{to}{in_options}", f"udpout://127.0.0.1:{port}{out_options}")
     sock, vehicle = world.udp_to(to), Vehicle()
     world.repeat(lambda n: sock.send(vehicle.next()))
-    return [f"udpin://127.0.0.1:{port}"]
+    return [ring, f"udpin://127.0.0.1:{port}"]
+
+
+def plant_router_faults(world):
+    return behind_a_router(world, "faults", "?in_fault=loss:0.2")[1:]
 
 
 def plant_faults_before_a_named_link(world):
     """The name of the link that leads to the doctor does not show its port."""
-    to, port = world.port(), world.port()
-    world.router("faults-named", f"udpin://127.0.0.1:{to}?in_fault=loss:0.2", f"udpout://127.0.0.1:{port}?name=gcs")
-    sock, vehicle = world.udp_to(to), Vehicle()
-    world.repeat(lambda n: sock.send(vehicle.next()))
-    return [f"udpin://127.0.0.1:{port}"]
+    return behind_a_router(world, "faults-named", "?in_fault=loss:0.2", "?name=gcs")[1:]
 
 
 def plant_split_stream(world):
@@ -450,11 +451,7 @@ def healthy_router(world):
 
 def healthy_named_link(world):
     """The name of the link does not show that it leads to the port that the doctor opens."""
-    to, port = world.port(), world.port()
-    _, ring = world.router("named", f"udpin://127.0.0.1:{to}", f"udpout://127.0.0.1:{port}?name=station")
-    sock, vehicle = world.udp_to(to), Vehicle()
-    world.repeat(lambda n: sock.send(vehicle.next()))
-    return [ring, f"udpin://127.0.0.1:{port}"]
+    return behind_a_router(world, "named", out_options="?name=station")
 
 
 PLANTED = {
