@@ -136,8 +136,13 @@ interface History {
 }
 export const histories = new Map<string, History>();
 
-export const lossOf = (hop: Hop): number =>
-    [hop, ...hop.links].reduce((sum, one) => sum + one.losses.reduce((all, loss) => all + loss.count, 0), 0);
+const lossesOf = (hop: Hop): Loss[] => [hop, ...hop.links].flatMap((one) => one.losses);
+export const lossOf = (hop: Hop): number => lossesOf(hop).reduce((sum, loss) => sum + loss.count, 0);
+
+// Faults also send on what they damage.
+const DAMAGES = ["fault_corrupted", "fault_cut"];
+export const isDamaged = (hop: Hop): boolean =>
+    lossesOf(hop).some((loss) => loss.count > 0 && DAMAGES.includes(loss.name));
 
 function remember(hop: Hop): void {
     const history = histories.get(hop.name) ?? { rates: [], lost: [] };

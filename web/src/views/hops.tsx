@@ -1,6 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The way of the frames: a box for each hop, with its rate and the losses that it counts, by name.
-import { histories, hops, linkFeed, lostLately, lossOf, type Hop, type Link, type Loss } from "../model/observed";
+import {
+    histories,
+    hops,
+    isDamaged,
+    linkFeed,
+    lossOf,
+    lostLately,
+    type Hop,
+    type Link,
+    type Loss,
+} from "../model/observed";
 import { bytes, count, hertz } from "../ui/format";
 import { Icon, type IconName } from "../ui/icon";
 
@@ -36,6 +46,7 @@ const LossRow = ({ loss }: { loss: Loss }) => (
 function Losses({ hop }: { hop: Hop }) {
     const { count: lately, seconds } = lostLately(hop);
     const total = lossOf(hop);
+    const word = isDamaged(hop) ? "lost or damaged" : "lost";
     if (total === 0)
         return (
             <p class="fine">
@@ -47,7 +58,7 @@ function Losses({ hop }: { hop: Hop }) {
         <div class={`losses ${lately > 0 ? "error" : ""}`}>
             <p>
                 <Icon name={lately > 0 ? "error" : "info"} />
-                {count(total)} lost
+                {count(total)} {word}
                 {seconds > 0 && (
                     <span class="end">
                         {lately > 0 ? `+${count(lately)} in ${seconds} s` : `none in the last ${seconds} s`}
