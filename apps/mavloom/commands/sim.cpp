@@ -129,29 +129,36 @@ SetupResult<void> add_endpoints(const std::vector<std::string>& texts, std::stri
     return {};
 }
 
+SetupResult<config::Document> load_scenario(const std::string& file) {
+    if (file.empty()) return config::Document{"options", {}};
+    const auto endpoint = endpoint::parse_endpoint(file);
+    if (endpoint && !endpoint->is_recording() && !file.starts_with('/'))
+        return setup_error(SetupCode::usage, fmt::format("{} is no scenario file; for an endpoint, write {} {}", file,
+                                                         endpoint->listens() ? "--listen" : "--to", file));
+    auto loaded = config::load_document(file);
+    if (!loaded) return tl::unexpected(of_input_file(std::move(loaded.error())));
+    return loaded;
+}
+
 SetupResult<Scenario> make_scenario(const SimOptions& options) {
-    config::Document document{options.file.empty() ? "options" : options.file, {}};
-    if (!options.file.empty()) {
-        auto loaded = config::load_document(options.file);
-        if (!loaded) return tl::unexpected(of_input_file(std::move(loaded.error())));
-        document = std::move(*loaded);
-    }
+    const auto document = load_scenario(options.file);
+    if (!document) return tl::unexpected(document.error());
     const auto overrides = options.overrides();
     const auto of_vehicle = std::ranges::find_if(overrides, [](const Override& o) {
         return o.section == "vehicle" && (o.key == "count" || o.key == "system" || o.key == "home");
     });
-    auto scenario = simserve::read_scenario(document, config::environment_of(environ), overrides);
+    auto scenario = simserve::read_scenario(*document, config::environment_of(environ), overrides);
     if (!scenario) return scenario;
     if (scenario->vehicles.size() > 1 && of_vehicle != overrides.end())
         return setup_error(SetupCode::usage,
                            fmt::format("{}: {} has several vehicles; write it there", of_vehicle->option, options.file));
-    if (auto good = simserve::check_scenario(*scenario, document); !good)
+    if (auto good = simserve::check_scenario(*scenario, *document); !good)
         return tl::unexpected(std::move(good.error()));
     if (auto added = add_endpoints(options.to, "--to", false, *scenario); !added)
         return tl::unexpected(std::move(added.error()));
     if (auto added = add_endpoints(options.listen, "--listen", true, *scenario); !added)
         return tl::unexpected(std::move(added.error()));
-    if (auto good = simserve::complete_hil(*scenario, document, config::environment_of(environ, simserve::px4_prefix));
+    if (auto good = simserve::complete_hil(*scenario, *document, config::environment_of(environ, simserve::px4_prefix));
         !good)
         return tl::unexpected(std::move(good.error()));
     const bool is_alone = scenario->hil || (!scenario->recording.empty() && scenario->input_recording.empty());

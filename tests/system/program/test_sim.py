@@ -315,6 +315,8 @@ def test_what_max_bytes_allows_is_kept(sim, station, run):
     (("--metrics", "9090"), "--metrics: '9090' is not HOST:PORT"),
     (("--to", "udpin://127.0.0.1:14550"), "put udpin://127.0.0.1:14550 after --listen"),
     (("--listen", "udpout://127.0.0.1:14550"), "put udpout://127.0.0.1:14550 after --to"),
+    (("udpout://127.0.0.1:14550",), "for an endpoint, write --to udpout://127.0.0.1:14550"),
+    (("udpin:127.0.0.1:14550",), "for an endpoint, write --listen udpin:127.0.0.1:14550"),
     (("--to", "udp://127.0.0.1:14550"), "udpout://127.0.0.1:14550"),
     (("--to", "udpout://127.0.0.1:1?max_rate=*:5"), "max_rate"),
     (("--to", "tlog://x.tlog"), "a simulator writes no recordings"),
