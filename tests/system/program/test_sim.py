@@ -108,6 +108,13 @@ class Client:
         while time.monotonic() < deadline:
             self.read(max(0, deadline - time.monotonic()))
 
+    def take_rest(self, patience=0.0):
+        """Takes all that has come, until nothing follows for so many seconds."""
+        before = -1
+        while len(self.got) != before:
+            before = len(self.got)
+            self.read(patience)
+
     def gaps(self):
         """Frames missing between those that came, by the sequence numbers of each system and component."""
         last, missing = {}, 0
@@ -226,10 +233,9 @@ def test_each_peer_of_a_port_has_rates_and_numbers_of_its_own(sim, udp_socket, t
     assert first.until(COMMAND_ACK).result == 0
     for client in (first, second):
         client.clear()
-    deadline = time.monotonic() + 1
-    while time.monotonic() < deadline:
-        first.read(0.01)
-        second.read(0.01)
+    first.collect(1)
+    for client in (first, second):
+        client.take_rest()
     counts = [collections.Counter(header(frame)[3] for frame in client.got) for client in (first, second)]
 
     assert counts[0][ATTITUDE] > 3 * counts[1][ATTITUDE] > 0
@@ -280,12 +286,7 @@ def test_what_max_bytes_allows_is_kept(sim, station, run):
     done = run("sim", "--to", f"{url}?max_bytes=1000", "--profile", "px4-normal", "--for", "3s", "--name", name())
     assert done.status == 0, done
     most = 1000 * (time.monotonic() - begin) + 750
-    client.collect(0.1)
-    while True:
-        before = len(client.got)
-        client.read(0.05)
-        if len(client.got) == before:
-            break
+    client.take_rest(0.1)
 
     assert 1500 < sum(map(len, client.got)) < most
 
@@ -651,12 +652,7 @@ def test_the_report_has_every_stream_of_every_link(run, station, udp_socket):
     done = run("sim", "--to", url, "--to", f"udpout://127.0.0.1:{other.getsockname()[1]}", "--for", "2s", "--report",
                "--json", "--name", name())
     rows = objects(done)
-    client.collect(0.1)
-    while True:
-        before = len(client.got)
-        client.read(0.05)
-        if len(client.got) == before:
-            break
+    client.take_rest(0.1)
     counts = collections.Counter(decode(frame).get_type() for frame in client.got)
 
     streams = {row["name"]: row for row in rows if row["kind"] == "stream" and row["link"] == url}
