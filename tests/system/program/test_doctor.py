@@ -506,12 +506,12 @@ def test_each_planted_fault_has_its_finding(spawn, tmp_path):
     with contextlib.ExitStack() as stack:
         world = World(spawn, tmp_path, stack)
         stack.callback(world.close)
-        begin = time.monotonic()
 
         def examine(plant, sources):
             world.doctors[plant] = spawn("doctor", *sources, "--for", LISTENS.get(plant, "2500ms"), "--json", "-v")
 
         sources = {plant: plant(world) for plant in PLANTED}
+        begin = time.monotonic()
         examine(plant_went_silent, sources[plant_went_silent])
         silence_one(world, world.doctors[plant_went_silent])
         for plant, given in sources.items():

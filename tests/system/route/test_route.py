@@ -1103,7 +1103,7 @@ def test_max_rate_holds_back_what_it_names_and_nothing_else(net):
         for frame in (*offered[-2:], other):
             sut[1].send(frame)
         got.extend(sut[2].until(other))
-        return len(got) == 10
+        return len(got) >= 10
     harness.wait_for(ten_came, what="ten of them")
 
     assert time.monotonic() - begin > 0.85  # nine intervals

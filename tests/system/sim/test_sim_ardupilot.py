@@ -109,7 +109,7 @@ def test_b81_rates_of_groups(sim):
     def rates_are(hertz, names):
         mark = station.mark()
         for name in names:
-            station.until(lambda: len(station.times(name, mark)) > 6, what=name)
+            station.until(lambda: len(station.times(name, mark)) > 20, what=name)
         for name in names:
             times = station.times(name, mark)
             assert abs((len(times) - 1) / (times[-1] - times[0]) / hertz - 1) < 0.15, (name, times)
