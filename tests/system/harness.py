@@ -83,8 +83,8 @@ def udp_socket(host: str = "127.0.0.1", timeout: float = DEFAULT_TIMEOUT_S) -> s
 
 # These ports are below those that the kernel chooses (32768 and up), so only a program that asks for one by its number
 # can take it. Each worker of pytest-xdist has its own share.
-_worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0")[2:])
-_ports = itertools.cycle(random.sample(range(20_000 + _worker % 8, 32_000, 8), 1500))
+WORKER = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0")[2:])
+_ports = itertools.cycle(random.sample(range(20_000 + WORKER % 8, 32_000, 8), 1500))
 
 
 def free_port(kind: int = socket.SOCK_DGRAM) -> int:

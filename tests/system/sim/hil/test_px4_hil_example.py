@@ -25,10 +25,10 @@ def is_free(port, kind):
 
 
 def free_instance():
-    """An instance of PX4 whose ports are free."""
+    """An instance of PX4 whose ports are free. Each worker of pytest-xdist has its own share."""
     tcp, udp = socket.SOCK_STREAM, socket.SOCK_DGRAM
     bases = ((4560, tcp), (18570, udp), (5057, udp), (5760, tcp))
-    return next(number for number in random.sample(range(20, 250), 230)
+    return next(number for number in random.sample(range(20 + harness.WORKER % 8, 250, 8), 28)
                 if all(is_free(base + number, kind) for base, kind in bases))
 
 

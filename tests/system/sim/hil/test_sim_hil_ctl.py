@@ -47,8 +47,9 @@ def test_without_an_autopilot_there_is_no_step(hil, run):
 
 @pytest.fixture
 def stepping(hil, stand_in):
-    """A simulator whose paused flight moves by 0.3 s, at a tenth of real time, and the client that waits for it."""
-    simulator = hil("--speed", "0.1")
+    """A simulator whose paused flight moves by 0.3 s, in 2 s of real time, and the client that waits for it, at most
+    for 4 s."""
+    simulator = hil("--speed", "0.15")
     stand_in(simulator.hil_port, boot_steps=5)
     harness.wait_for(lambda: simulator.hil()["state"] == "lock-step", what="the first answer")
     simulator.ctl("pause")
