@@ -140,9 +140,10 @@ def test_row_1_a_time_out_gives_none(link):
 @pytest.mark.parametrize("reader", [lambda link: link, lambda link: link.subscribe()], ids=["link", "subscription"])
 def test_a_time_out_makes_recv_match_wait(link, vehicle, reader, options, waits):
     asked = reader(link)
-    timer = threading.Timer(0.1, lambda: vehicle.send(vehicle.heartbeat()))
+    timer = threading.Timer(0.1 if waits else 3, lambda: vehicle.send(vehicle.heartbeat()))
     timer.start()
     found = asked.recv_match(type="HEARTBEAT", **options)
+    timer.cancel()
     timer.join()
     assert (found is not None) is waits
 
