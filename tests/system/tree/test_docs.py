@@ -179,6 +179,20 @@ def test_examples_of_the_help_of_a_part(run, folder, command, part):
         assert is_good(done, words), done
 
 
+def page_configurations():
+    for page in PAGES:
+        for text in re.findall(r"```toml\n(.*?)```", page.read_text(), re.DOTALL):
+            yield pytest.param(text, id=f"{page.name}: {text.splitlines()[0]}")
+
+
+@pytest.mark.parametrize("text", list(page_configurations()))
+def test_a_configuration_of_a_page_is_good(run, tmp_path, text):
+    (tmp_path / "page.toml").write_text(text)
+    done = run("check", tmp_path / "page.toml")
+
+    assert done.status == 0, done
+
+
 def headings_of(page):
     """(level, text) of the headings, without those in code."""
     text = re.sub(r"```.*?```", "", page.read_text(), flags=re.DOTALL)
