@@ -196,6 +196,8 @@ Passage compare(Source source, Prints a, Prints b) {
                by_content && is_same_stream(*by_content, same_contents)) {
         passage.is_comparable = passage.is_rewritten = true;
         judge_common(passage, a, b, *by_content, &Print::content);
+    } else {
+        passage.has_few = std::min(a.size(), b.size()) < 2 * least_anchors;
     }
     return passage;
 }

@@ -56,6 +56,7 @@ void add_sources(std::string& out, const observe::Evidence& evidence, int width)
 std::string passage_text(const observe::Evidence& evidence, std::size_t first, const observe::Passage& passage) {
     const auto &a = evidence.sources[first].name, &b = evidence.sources[first + 1].name;
     const auto sender = source_text(passage.source);
+    if (passage.has_few) return fmt::format("{} sent too few frames to compare those of {} and {}.", sender, a, b);
     if (!passage.is_comparable)
         return fmt::format("{} sends other frames to {} than to {}, so these cannot be compared.", sender, a, b);
     std::string text = passage.lost + passage.filtered == 0

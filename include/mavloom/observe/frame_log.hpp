@@ -47,8 +47,9 @@ struct Passage {
     };
 
     Source source{};
-    // Different: each has its own frames of the sender, as of a vehicle that sends two streams. Nothing else is set.
+    // Different: each has its own frames of the sender, as of a vehicle that sends two streams. Only `has_few` is set.
     bool is_comparable = false;
+    bool has_few = false;               // it is not comparable, because A or B heard few frames of the sender
     bool is_rewritten = false;          // numbered, signed or converted in between
     std::uint64_t before = 0;           // frames of A in the common time, without those for a system of its own
     std::uint64_t lost = 0;             // of these, not at B; without `filtered`

@@ -771,6 +771,13 @@ def test_nothing_is_lost(run, tmp_path, flight):
     assert done.status == 0 and 3990 <= int(through[1]) <= 4000, done  # some are for the ground station alone
 
 
+def test_a_few_frames_are_not_called_another_stream(run, tmp_path):
+    beats = list(enumerate(frames.heartbeats(8)))
+    done = run("doctor", frames.write_tlog(tmp_path / "before.tlog", beats),
+               frames.write_tlog(tmp_path / "after.tlog", beats))
+    assert "sent too few frames to compare" in " ".join(done.stdout.split()), done
+
+
 # ---- recordings ------------------------------------------------------------------------------------------------------
 
 def recorded(tmp_path, messages):

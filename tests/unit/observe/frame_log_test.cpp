@@ -99,7 +99,15 @@ TEST_F(FrameLogTest, TwoStreamsOfOneVehicleAreNotCompared) {
     for (int i = 0; i < 400; ++i) add(a, attitude(i * 50), i);
     for (int i = 0; i < 200; ++i) add(b, attitude(i * 100 + 13), i);
     EXPECT_FALSE(passage().is_comparable);
+    EXPECT_FALSE(passage().has_few);
     EXPECT_EQ(passage().lost, 0u);
+}
+
+TEST_F(FrameLogTest, AFewFramesAreNotCompared) {
+    for (int i = 0; i < 100; ++i) add(a, attitude(i), i);
+    for (int i = 0; i < 7; ++i) add(b, attitude(i), i);
+    EXPECT_FALSE(passage().is_comparable);
+    EXPECT_TRUE(passage().has_few);
 }
 
 TEST_F(FrameLogTest, ASenderThatOneDidNotHearIsLeftOut) {
