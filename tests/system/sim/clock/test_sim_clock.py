@@ -12,7 +12,7 @@ import pytest
 from pymavlink import mavutil
 
 from disks import SmallDisk
-from simulators import item
+from simulators import item, unique_name
 
 FLIGHT = """
 [sim]
@@ -233,7 +233,7 @@ def test_a_session_is_played_again(sim, run, tmp_path, speed):
 def test_what_is_played_is_kept_again(fly, run, tmp_path):
     played, kept = fly(), tmp_path / "kept.tlog"
     done = run("sim", "--replay-input", played, "--start-time", "2026-11-29T12:00:00Z", "--record-input", kept,
-               "--record", tmp_path / "x.tlog", "--for", "2m", "--speed", "max", "--ring", "kept")
+               "--record", tmp_path / "x.tlog", "--for", "2m", "--speed", "max", "--ring", unique_name())
     assert done.status == 0, done
     assert kept.read_bytes() == played.read_bytes()
 
