@@ -46,12 +46,23 @@ def attitude(source=(1, 1), **options) -> bytes:
     return make(mavlink.MAVLink_attitude_message(unique(), 0.1, -0.2, 3.0, 0.01, 0.02, 0.03), source, **options)
 
 
+def has_second_start(frame) -> bool:
+    """Whether the scan of a part of the frame, or of what is left of a damaged one, could find another start."""
+    return not {0xFD, 0xFE}.isdisjoint(frame[1:])
+
+
+def with_one_start(source=(1, 1)) -> bytes:
+    while has_second_start(frame := attitude(source)):
+        pass
+    return frame
+
+
 def damaged() -> bytes:
-    """A frame with a wrong checksum, and no byte in which the scan of what is left could find another start."""
+    """A frame with a wrong checksum, and without a second start."""
     while True:
         frame = bytearray(attitude())
         frame[20] ^= 1
-        if not {0xFD, 0xFE} & set(frame[1:]):
+        if not has_second_start(frame):
             return bytes(frame)
 
 

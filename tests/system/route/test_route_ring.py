@@ -626,7 +626,7 @@ def test_garbage_is_counted_and_never_forwarded(tapped, app):
     net = tapped()
     net.sent_by(net.vehicle, heartbeat())
     stranger, friend = app(net.inlet), app(net.inlet)
-    frame = attitude((30, 1))
+    frame = routers.with_one_start((30, 1))
     plain = random.Random(1).choices([b for b in range(256) if b not in (0xFD, 0xFE)], k=1000)
     pieces = [bytes(plain), frame[:-1], b"", damaged()]
     for piece in pieces:
