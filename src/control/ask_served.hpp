@@ -19,8 +19,8 @@ using Then = std::function<void(Report)>;
 // it on the served program's thread.
 inline void copy_report(Served& served, const asio::any_io_executor& back, Report report, Then then) {
     if (report.answer_later)
-        return report.answer_later([&served, back, then = std::move(then)](Report known) {
-            copy_report(served, back, std::move(known), then);
+        return report.answer_later([&served, back, then = std::move(then)](Report known) mutable {
+            copy_report(served, back, std::move(known), std::move(then));
         });
     if (!report.copy_more || !report.copy_more())
         return asio::post(back,
