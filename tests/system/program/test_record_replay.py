@@ -6,6 +6,7 @@ import json
 import os
 import pty
 import re
+import select
 import shutil
 import signal
 import socket
@@ -571,17 +572,21 @@ def read_terminal(master):
     return seen.decode()
 
 
-def on_terminal(program, *arguments, seconds=1.5):
-    """Returns the text on stderr, a terminal of 100 columns, until a signal ends the command."""
+def on_terminal(program, *arguments, until=lambda seen: False, seconds=harness.DEFAULT_TIMEOUT_S):
+    """Returns the text on stderr, a terminal of 100 columns. A signal ends the command when `until` holds for the text,
+    or after some seconds."""
     master, slave = pty.openpty()
     fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 100, 0, 0))
     process = subprocess.Popen([program, *map(str, arguments)], stderr=slave, stdout=subprocess.DEVNULL,
                                env=harness.environment())
     os.close(slave)
-    with contextlib.suppress(subprocess.TimeoutExpired):
-        process.wait(seconds)
+    seen, end = "", time.monotonic() + seconds
+    while not until(seen) and process.poll() is None and (left := end - time.monotonic()) > 0:
+        if select.select([master], [], [], min(left, 0.1))[0]:
+            with contextlib.suppress(OSError):  # the end of the program
+                seen += os.read(master, 4096).decode()
     process.send_signal(signal.SIGINT)
-    seen = read_terminal(master)
+    seen += read_terminal(master)
     process.wait(harness.DEFAULT_TIMEOUT_S)
     return seen
 
@@ -594,7 +599,8 @@ LINE = r"\[#*\.*\] +\d+ %  \d+ frames?  [\d.]+ k?B  00:0\d  \d+ frames/s  \d\d:\
 def test_progress_is_shown_on_a_terminal_and_leaves_no_trace(program, udp_port, tmp_path, command):
     end = ("-o", tmp_path / "out.tlog") if command == "record" else ("--to", f"udpout://127.0.0.1:{udp_port()}")
     more = ("--no-wait",) if command == "replay" else ()
-    seen = on_terminal(program, command, f"{frames.FLIGHT}?speed=1", *end, *more)
+    seen = on_terminal(program, command, f"{frames.FLIGHT}?speed=1", *end, *more,
+                       until=lambda seen: re.search(rf"\r{LINE} *\r", seen))
     lines = [line.strip() for line in re.findall(r"\r(\[[^\r\n]*)", seen)]
     assert lines and any(re.fullmatch(LINE, line) for line in lines), seen
     assert not any(re.search(r"[1-9]\d* frames?  0 B", line) for line in lines), seen
@@ -614,8 +620,10 @@ def test_a_live_command_knows_its_end_by_its_limit(program, spawn, udp_port, tmp
     port = udp_port()
     to = "-o" if command == "record" else "--to"
     spawn("sim", "--to", f"udpout://127.0.0.1:{port}", "--name", f"progress-{port}")
-    seen = on_terminal(program, command, f"udpin://127.0.0.1:{port}", to, tmp_path / "live.tlog", *limit, seconds=3)
-    assert re.search(r"\d+ frames  [\d.]+ k?B  00:0\d  \d+ frames/s", seen), seen
+    counts = r"\d+ frames  [\d.]+ k?B  00:0\d  \d+ frames/s"
+    seen = on_terminal(program, command, f"udpin://127.0.0.1:{port}", to, tmp_path / "live.tlog", *limit,
+                       until=lambda seen: re.search(counts, seen) and (shown is None or re.search(shown, seen)))
+    assert re.search(counts, seen), seen
     assert bool(re.search(r"\d %", seen)) == bool(shown) and (shown is None or re.search(shown, seen)), seen
 
 
