@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Finds the vehicle that is due first: a binary heap of vehicles, ordered by the flight time at which they are due. An
-// update takes logarithmic time and allocates nothing. Private to module simserve; single owner thread.
+// Finds the vehicle that is due first: a binary heap of vehicles, ordered by the flight time at which they are due. Of
+// those due at the same time, the one that was added first is first, whatever happened before, so that a session that
+// is played again has the same order. An update takes logarithmic time and allocates nothing. Private to module
+// simserve; single owner thread.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -43,12 +46,14 @@ private:
     struct Item {
         sim::FlightTime due;
         Index vehicle;
+
+        auto operator<=>(const Item&) const = default;
     };
 
     void rise(std::size_t place) noexcept {
         for (; place != 0; place = (place - 1) / 2) {
             const std::size_t parent = (place - 1) / 2;
-            if (heap_[parent].due <= heap_[place].due) return;
+            if (heap_[parent] < heap_[place]) return;
             exchange(parent, place);
         }
     }
@@ -56,7 +61,7 @@ private:
         for (;;) {
             std::size_t least = place;
             for (std::size_t child = 2 * place + 1; child < heap_.size() && child <= 2 * place + 2; ++child)
-                if (heap_[child].due < heap_[least].due) least = child;
+                if (heap_[child] < heap_[least]) least = child;
             if (least == place) return;
             exchange(least, place);
             place = least;
