@@ -59,10 +59,10 @@ Exit simulate_for_px4(const Common& common, const Scenario& scenario, const dial
     if (!control) return fail(control.error());
     log_ports(common, (*simulator)->links().endpoints());
     serve(scenario, **simulator);
-    if (!scenario.has_report) return Signals::status(Exit::done);
+    const Exit done = (*simulator)->refused_orders() == 0 ? Exit::done : Exit::failed;
+    if (!scenario.has_report) return Signals::status(done);
     const auto reports = (*simulator)->reports();
-    return Signals::status(
-        print_at_end(prints_json ? simserve::json_of(reports) : simserve::text_of(reports), Exit::done));
+    return Signals::status(print_at_end(prints_json ? simserve::json_of(reports) : simserve::text_of(reports), done));
 }
 
 }  // namespace mavloom::app

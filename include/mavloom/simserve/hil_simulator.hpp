@@ -78,6 +78,8 @@ public:
     [[nodiscard]] std::vector<HilReport> reports() const;
     // The vehicles whose autopilot has this system id; without one, all.
     [[nodiscard]] std::vector<hil::Pair*> pairs(std::optional<SystemId> system);
+    // Faults of the time lines that a vehicle refused.
+    [[nodiscard]] std::uint64_t refused_orders() const;
     // Moves paused flights by this time, rounded up to whole steps. Calls `then` between two turns, when their
     // autopilots have answered the last step, or after `limit`; the rest of the steps then follows.
     void step(std::vector<hil::Pair*> pairs, Nanoseconds time, Nanoseconds limit, std::function<void()> then);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mavloom/base/counted.hpp"
+#include "mavloom/base/durations.hpp"
 
 namespace mavloom::simserve {
 
@@ -125,9 +126,14 @@ void HilPort::step(MonoTime now) {
 }
 
 void HilPort::fail_due() {
-    for (; next_fault_ < faults_.size() && faults_[next_fault_].at <= pair_.lock_step().time(); ++next_fault_)
-        if (const auto done = pair_.fail(faults_[next_fault_].fault); !done)
-            say(LogLevel::warning, fmt::format("a fault of the time line: {}", done.error().text));
+    for (; next_fault_ < faults_.size() && faults_[next_fault_].at <= pair_.lock_step().time(); ++next_fault_) {
+        const auto& [at, fault] = faults_[next_fault_];
+        const auto done = pair_.fail(fault);
+        if (done) continue;
+        ++refused_orders_;
+        say(LogLevel::warning,
+            fmt::format("order 'fail {}' at {:g} s: {}", flight::text_of(fault), seconds(at), done.error().text));
+    }
 }
 
 // ---- what users see -------------------------------------------------------------------------------------------------
@@ -150,8 +156,8 @@ void HilPort::note_state() {
         say(LogLevel::warning,
             fmt::format(
                 "no answer to {} steps, so steps come in real time until {} in a row are answered. An autopilot "
-                "does not answer if it was stopped, if its gyroscope or accelerometer failed, or if sensors "
-                "come more often than its parameter IMU_INTEG_RATE",
+                "does not answer if it was stopped, if its gyroscope or accelerometer failed, if it terminated the "
+                "flight, or if sensors come more often than its parameter IMU_INTEG_RATE",
                 hil::LockStep::most_missed, hil::LockStep::enough_in_row));
     const bool is_back = before == State::lost && (state_ == State::lock_step || state_ == State::real_time);
     if (is_back && !std::exchange(said_back_, true))

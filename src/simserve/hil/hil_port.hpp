@@ -43,6 +43,7 @@ public:
     // Warns once about an autopilot at another port that has the same system id.
     void note_double(const HilPort& other);
     [[nodiscard]] HilReport report() const;
+    [[nodiscard]] std::uint64_t refused_orders() const noexcept { return refused_orders_; }
 
 private:
     void begin(LinkId link, std::string_view name);
@@ -57,6 +58,7 @@ private:
     hil::Pair pair_;
     const std::vector<hil::TimedFault> faults_;
     std::size_t next_fault_ = 0;
+    std::uint64_t refused_orders_ = 0;  // faults of the time line
     link::Links& links_;
     const Notice& notice_;
     const bool is_board_;

@@ -145,6 +145,12 @@ std::vector<HilReport> HilSimulator::reports() const {
     return all;
 }
 
+std::uint64_t HilSimulator::refused_orders() const {
+    std::uint64_t all = 0;
+    for (const auto& port : ports_) all += port->refused_orders();
+    return all;
+}
+
 std::vector<hil::Pair*> HilSimulator::pairs(std::optional<SystemId> system) {
     std::vector<hil::Pair*> found;
     found.reserve(ports_.size());

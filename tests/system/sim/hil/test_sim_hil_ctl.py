@@ -6,6 +6,7 @@ import re
 import pytest
 
 import harness
+from simulators import unique_name
 
 HOLD = {"arm_at": 0.5, "height": 3.0, "hold": 1e9}
 
@@ -152,6 +153,16 @@ def test_the_time_line_has_faults(hil, stand_in, tmp_path):
     report = stand_in(simulator.hil_port, arm_at=2.0, height=3.0, hold=2.0).said("report")
     assert 45 < report["worst"]["gps_m"] < 55, "a position that is 50 m away"
     assert simulator.hil()["unanswered"] == 0
+
+
+def test_an_order_of_the_time_line_that_is_refused_is_reported(spawn, stand_in, tmp_path):
+    (tmp_path / "faults.toml").write_text('[[event]]\nat = "1s"\ndo = "fail motor off 9"\n')
+    port = harness.free_port(harness.socket.SOCK_STREAM)
+    simulator = spawn("sim", tmp_path / "faults.toml", "--hil", f"px4=tcpin://127.0.0.1:{port}", "--speed", "max",
+                      "--for", "3s", "--name", unique_name())
+    stand_in(port, stay=True)
+    done = simulator.wait()
+    assert done.status == 1 and "order 'fail motor off 9' at 1 s: the vehicle has 4 motors" in done.stderr, done
 
 
 def test_waits_for_the_height_and_for_the_landing(hil, stand_in):
