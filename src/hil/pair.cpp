@@ -165,10 +165,14 @@ bool has_part(flight::FaultPart part) noexcept {
 }
 
 SetupResult<void> Pair::fail(const flight::Fault& fault) {
-    if (!has_part(fault.part))
-        return setup_error(SetupCode::usage,
-                           fmt::format("the {} is PX4's own; with its command MAV_CMD_INJECT_FAILURE it fails there",
-                                       flight::fault_part_names[static_cast<std::size_t>(fault.part)]));
+    if (!has_part(fault.part)) {
+        using enum flight::FaultPart;
+        const bool may_inject = fault.part == battery || fault.part == esc;
+        return setup_error(
+            SetupCode::usage,
+            fmt::format("the {} is PX4's own{}", flight::fault_part_names[static_cast<std::size_t>(fault.part)],
+                        may_inject ? "; with its command MAV_CMD_INJECT_FAILURE it fails there" : ""));
+    }
     if (auto refusal = flight::motor_refusal(fault, parts_->vehicle().channels()); !refusal.empty())
         return setup_error(SetupCode::usage, std::move(refusal));
     parts_->vehicle().fail(fault);
