@@ -271,17 +271,17 @@ class Station:
         self.send_to_vehicle("param_request_list")
         deadline, got = time.monotonic() + timeout, {}
         while time.monotonic() < deadline:
+            latest = self.mark()
             got = {m.param_index: m for m in self.since(mark, "PARAM_VALUE") if m.param_index != 0xFFFF}
             count = next(iter(got.values())).param_count if got else None
             if count and len(got) == count:
                 return {m.param_id: m for m in got.values()}
-            before = len(got)
             with contextlib.suppress(AssertionError):
-                self.expect("PARAM_VALUE", since=self.mark(), timeout=patience)
+                self.expect("PARAM_VALUE", since=latest, timeout=patience)
                 continue
             if not got:
                 self.send_to_vehicle("param_request_list")
-            elif before == len(got):
+            else:
                 for index in sorted(set(range(count)) - set(got))[:20]:
                     self.send_to_vehicle("param_request_read", b"", index)
         raise AssertionError(f"{len(got)} parameters within {timeout:g} s")
