@@ -55,8 +55,8 @@ TlogReader::Stop TlogReader::read_failed(SetupError error) {
 
 SetupError TlogReader::no_record_error() const {
     return {SetupCode::bad_input, 0,
-            fmt::format("{} is not a tlog: none of its {} bytes begins a MAVLink record", file_.path().string(),
-                        position())};
+            fmt::format("{} is not a tlog: none of its {}{} bytes begins a MAVLink record", file_.path().string(),
+                        position() < size_ ? "first " : "", position())};
 }
 
 // Whether more bytes are needed to judge the record at the front. The writer of a pipe may be slow, so there a whole

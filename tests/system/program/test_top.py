@@ -109,6 +109,13 @@ def test_no_terminal_prints_once_and_states_why(run):
     assert done.status == 0 and "as with --once" in done.stderr and "ATTITUDE" in done.stdout
 
 
+def test_a_large_file_without_a_record_is_refused(run, tmp_path):
+    with (tmp_path / "zeros.tlog").open("wb") as zeros:
+        zeros.truncate(64 << 20)
+    done = run("top", tmp_path / "zeros.tlog", "--once")
+    assert done.status == 3 and "none of its first " in done.stderr, done
+
+
 # A machine of its own, as far as top looks: no ring, free ports, and these devices.
 ALONE = """
 mount -t tmpfs none /dev && mkdir /dev/shm && mknod -m 666 /dev/null c 1 3 && mknod -m 666 /dev/urandom c 1 9
