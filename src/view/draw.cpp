@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ranges>
 
 #include "view/table.hpp"
 #include "view/vehicle_text.hpp"
@@ -103,8 +104,8 @@ void draw_alarm_line(Grid& grid, int y, const Snapshot& shown) {
                      : worst->severity == observe::Alarm::Severity::warning ? Ink::warning
                                                                             : Ink::plain;
     const auto more = count == 1 ? std::string() : fmt::format(" (and {} more)", count - 1);
-    const auto x = grid.put(1, y, fmt::format("! {}: {}", from, worst->text), ink,
-                            grid.size().width - width_of(more) - 1);
+    const auto text = from.empty() ? worst->text : fmt::format("{}: {}", from, worst->text);  // of programs: empty
+    const auto x = grid.put(1, y, "! " + text, ink, grid.size().width - width_of(more) - 1);
     grid.put(x, y, more, Ink::dim);
 }
 
@@ -158,10 +159,14 @@ int put_wrapped(Grid& grid, int y, int end, std::string_view text, Ink ink) {
     return y;
 }
 
+// While nothing is heard: hints; or, of sources that the user named, what they reported last.
 void draw_empty(Grid& grid, const Layout& its, const Snapshot& shown) {
     int y = put_wrapped(grid, its.body, its.end, "nothing to show", Ink::dim);
     if (shown.frames != 0) return;
     for (const auto& hint : shown.hints) y = put_wrapped(grid, y, its.end, hint, Ink::plain);
+    if (!shown.hints.empty()) return;
+    for (const auto& notice : shown.notices | std::views::reverse)
+        y = put_wrapped(grid, y, its.end, notice, Ink::plain);
 }
 
 void draw_table(Grid& grid, const Layout& its, const Snapshot& shown, State& state) {

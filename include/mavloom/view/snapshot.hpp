@@ -56,7 +56,7 @@ struct Snapshot {
     std::vector<Route> routes{};
     std::vector<observe::SenderLoss> losses{};
     std::vector<std::string> notices{};  // of the program itself, newest last
-    std::vector<std::string> hints{};    // shown while nothing was heard
+    std::vector<std::string> hints{};    // shown while nothing was heard; empty: the notices are
     std::optional<Playing> playing{};
     std::uint64_t frames = 0;
     double hz = 0, bytes_per_s = 0;

@@ -327,6 +327,19 @@ TEST_F(DrawTest, WhileNothingIsHeardHintsAreShown) {
                                                                                "   read it, name the source\n"));
 }
 
+TEST_F(DrawTest, WhileNothingIsHeardOfANamedSourceItsLastReportIsShown) {
+    auto shown = taken();
+    shown->notices = {"serial:///dev/ttyACM0: up", "serial:///dev/ttyACM0: cannot open it; trying again"};
+    EXPECT_THAT(draw(*shown, state, {40, 10}, Glyphs::ascii).text(), Not(HasSubstr("cannot open")));
+    shown->frames = 0;
+    shown->rows.clear();
+    EXPECT_THAT(draw(*shown, state, {40, 10}, Glyphs::ascii).text(),
+                HasSubstr(" nothing to show\n"
+                          " serial:///dev/ttyACM0: cannot open it;\n"
+                          "   trying again\n"
+                          " serial:///dev/ttyACM0: up\n"));
+}
+
 TEST_F(DrawTest, AnAlarmIsReadInFortyColumns) {
     auto shown = taken();
     shown->alarms = {{.kind = observe::Alarm::Kind::silent,
@@ -340,6 +353,15 @@ TEST_F(DrawTest, AnAlarmIsReadInFortyColumns) {
     EXPECT_THAT(draw(*shown, state, {80, 24}, Glyphs::ascii).text(),
                 HasSubstr(" BEGAN    LASTED   SEVERITY  FROM     ALARM\n"
                           " 6.00 s   now      error     1/1      nothing is heard of it\n"));
+}
+
+TEST_F(DrawTest, AnAlarmOfAProgramHasNoSender) {
+    auto shown = taken();
+    shown->alarms = {{.kind = observe::Alarm::Kind::loss,
+                      .severity = observe::Alarm::Severity::warning,
+                      .text = "router lost 3: queue_age",
+                      .since = wall(4s)}};
+    EXPECT_THAT(draw(*shown, state, {80, 24}, Glyphs::ascii).text(), HasSubstr("\n ! router lost 3: queue_age\n"));
 }
 
 TEST_F(DrawTest, VehiclesWithoutRoomAreCounted) {
