@@ -37,7 +37,8 @@ std::string advice_for(const EndpointInfo& info, const LinkCounters* link) {
     const auto& endpoint = info.endpoint;
     if (must_send_first(endpoint) && !has_sent(link)) return advice_for_unsent(endpoint);
     if (endpoint.accepts_clients() && link == nullptr)
-        return fmt::format("no client has connected to port {}", info.local_port);
+        return fmt::format("no client has connected to port {}: does one try, and does the firewall let it in?",
+                           info.local_port);
     const auto baud = endpoint.options.baud;
     return fmt::format(fmt::runtime(endpoint.row().if_silent), fmt::arg("address", endpoint::to_text(endpoint.address)),
                        fmt::arg("port", endpoint.address.port), fmt::arg("local_port", info.local_port),
