@@ -91,9 +91,16 @@ void Parts::step_to(Moment moment) {
     now = moment;
     flight.set_real_time(moment.real);
     radio.set_utc(signing_time(moment));
-    if (silent_until_ != FlightTime::min() && moment.flight >= silent_until_) end_silence();
+    if (silent_until_ != FlightTime::min() && moment.flight >= silent_until_) {
+        fly_to(silent_until_);  // a silent vehicle moves until then, whether or not it was called meanwhile
+        end_silence();
+    }
+    fly_to(moment.flight);
+}
+
+void Parts::fly_to(FlightTime time) {
     FlightRecorder& recorder = log_service->recorder();
-    for (; stepped + step_time <= moment.flight; stepped += step_time) {
+    for (; stepped + step_time <= time; stepped += step_time) {
         flight.step();
         recorder.step();
         if (gimbal) gimbal->step();

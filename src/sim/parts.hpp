@@ -112,6 +112,7 @@ private:
 
     void add(Service& service);
     void schedule_pump() noexcept;
+    void fly_to(FlightTime time);
     void begin_silence();
     void end_silence();
     void take_system();

@@ -469,6 +469,18 @@ TEST(MaintenanceCommands, RebootKeepsParametersAndStartsTheClockAgain) {
     EXPECT_EQ(bench.rig.sink.frames.back().frame().source().system.value, 9);
 }
 
+TEST(MaintenanceCommands, AVehicleMovesTheSameDuringARebootWhateverItStreams) {
+    const auto north_after = [](double attitude_hz) {
+        Rig rig({.ready_after = 0ms}, {.rates = {{msg::Attitude::id, attitude_hz}}});
+        rig.run(0.5993);
+        rig.send(msg::CommandLong{.target_system = 1, .command = 246, .param1 = 1});
+        rig.run(4.0);
+        return rig.vehicle.status().north_m_s;  // with noise, which each step draws
+    };
+    const double expected = north_after(0);
+    for (const double hz : {1, 40, 90, 170, 249}) EXPECT_EQ(north_after(hz), expected) << hz;
+}
+
 TEST(MaintenanceCommands, RebootIsDeniedWhileArmed) {
     Bench bench;
     ASSERT_EQ(bench.arm(), accepted);
