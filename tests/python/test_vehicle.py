@@ -20,10 +20,10 @@ from vehicles import Vehicle, again_and_again, until
 @pytest.fixture
 def quick(monkeypatch):
     """Short waits, for tests of answers that never come."""
-    for module, name, seconds in ((_commands, "ANSWER_S", 0.15), (_commands, "HEARTBEATS_S", 0.4),
+    for module, name, seconds in ((_commands, "ANSWER_S", 0.4), (_commands, "HEARTBEATS_S", 0.4),
                                   (_commands, "POSITION_S", 0.2), (_commands, "IN_PROGRESS_S", 0.2),
-                                  (_params, "ANSWER_S", 0.15), (_params, "QUIET_S", 0.15),
-                                  (_mission, "ANSWER_S", 0.15)):
+                                  (_params, "ANSWER_S", 0.4), (_params, "QUIET_S", 0.15),
+                                  (_mission, "ANSWER_S", 0.4)):
         monkeypatch.setattr(module, name, seconds)
 
 

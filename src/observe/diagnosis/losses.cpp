@@ -143,10 +143,15 @@ std::string_view port_of(std::string_view name) {
     return colon == std::string_view::npos ? std::string_view() : name.substr(colon + 1);
 }
 
+bool is_on_this_machine(std::string_view url) {
+    constexpr std::array<std::string_view, 3> hosts{"://127.", "://localhost:", "://[::1]:"};
+    return std::ranges::any_of(hosts, [&](auto host) { return url.find(host) != std::string_view::npos; });
+}
+
 // Until we opened the port, it was closed.
 bool is_ours(const Evidence& evidence, const HopLink& link) {
     const auto port = port_of(link.destination());
-    if (port.empty()) return false;
+    if (port.empty() || !is_on_this_machine(link.destination())) return false;
     return std::ranges::any_of(evidence.sources, [&](const Listened& source) {
         return source.kind == Listened::Kind::listens && port_of(source.name) == port;
     });

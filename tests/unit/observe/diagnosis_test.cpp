@@ -279,8 +279,11 @@ TEST_F(DiagnosisTest, APortThatOnlyTheDoctorHasOpenWasNotClosedByMistake) {
     evidence.hops_before = {
         {.name = "router", .links = {{.name = "tablet", .sends_to = "udpout://127.0.0.1:14550", .refused = 5}}}};
     evidence.hops_after = evidence.hops_before;
-    evidence.hops_after.front().links.front().refused = 95;
+    auto& link = evidence.hops_after.front().links.front();
+    link.refused = 95;
     EXPECT_THAT(ids(evidence), IsEmpty());
+    link.sends_to = "udpout://192.0.2.7:14550";
+    EXPECT_THAT(ids(evidence), ElementsAre("port-refused")) << "the same port of another machine";
 }
 
 TEST_F(DiagnosisTest, TheCountsOfALinkThatClosedAreOld) {
