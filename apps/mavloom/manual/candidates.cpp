@@ -116,10 +116,14 @@ void add_values(Candidates& out, const Place& place, const DeclaredOption& optio
     out.and_files = placeholder.find("FILE") != placeholder.npos || placeholder.ends_with(".toml");
 }
 
+// The program's own options stand before its commands, those of a command also behind its parts.
 void add_options(Candidates& out, const Place& place) {
-    for (const auto* command : place.commands)
-        for (const auto& option : command->options)
-            if (!option.is_positional) out.all.push_back({option.names.back(), option.description});
+    for (auto i = std::min<std::size_t>(1, place.commands.size() - 1); i < place.commands.size(); ++i)
+        for (const auto& option : place.commands[i]->options) {
+            const auto& name = option.names.back();
+            if (!option.is_positional && std::ranges::find(out.all, name, &Candidate::word) == out.all.end())
+                out.all.push_back({name, option.description});
+        }
 }
 
 void add_free_word(Candidates& out, const Place& place, const std::string& typed, const Vocabulary& vocabulary) {

@@ -71,6 +71,9 @@ def test_what_may_stand_next(run):
     assert words(run, "manual", "m") == ["mdoc", "markdown"]
     assert words(run, "demo", "--ports", "f") == ["free"]
     assert words(run, "nothing", "at", "all") == []
+    assert words(run, "--v") == ["--version"]
+    assert words(run, "doctor", "--v") == [], "doctor has no such option"
+    assert words(run, "shm", "stat", "--h") == ["--help"]
 
 
 def test_running_programs_and_rings_are_offered(run, spawn, udp_port):
