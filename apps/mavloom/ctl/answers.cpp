@@ -75,6 +75,8 @@ void print_traffic(fmt::appender out, const Json& o) {
 }
 void print_link(fmt::appender out, const Json& o) {
     fmt::format_to(out, "link {}{}\n", o.value("link", ""), o.value("up", true) ? "" : " (down)");
+    if (const auto faults = o.value("faults", "off"); faults != "off")
+        fmt::format_to(out, "  faults on purpose: {}\n", faults);
     print_traffic(out, o);
 }
 void print_others(fmt::appender out, const Json& o) {

@@ -247,6 +247,7 @@ def test_faults_change_while_a_router_runs(spawn, run):
         harness.wait_for(lambda: path.link("vehicle")["fault_lost"] == 10, what="ten lost frames")
         assert run("ctl", name, "fault", path.link("vehicle")["link"], "--out", "sik", "--seed", "5").status == 0
         assert path.link("vehicle")["faults"] == "in loss:1, out sik, seed 5"
+        assert "  faults on purpose: in loss:1, out sik, seed 5\n" in run("stat", name).stdout
         assert run("ctl", name, "fault", path.link("vehicle")["link"], "--in", "off").status == 0
         assert path.link("vehicle")["faults"] == "in off, out sik, seed 5"
         assert run("ctl", name, "fault", "vehicle", "off").status == 0
