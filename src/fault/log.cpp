@@ -22,7 +22,14 @@ std::atomic<int> log_file{-1};
 
 constexpr std::string_view log_head = "time_us\tlink\tdirection\tfault\tbytes\tmessage\tsender\tsequence\n";
 
-void write_line(int file, std::string_view line) noexcept { (void)!::write(file, line.data(), line.size()); }
+// A full disk may take only the beginning of a line. The next one then begins on a line of its own.
+void write_line(int file, std::string line) {
+    static std::atomic<bool> is_torn{false};
+    const bool was_torn = is_torn.exchange(false);
+    if (was_torn) line.insert(0, 1, '\n');
+    const auto written = ::write(file, line.data(), line.size());
+    is_torn = written < 0 ? was_torn : static_cast<std::size_t>(written) < line.size();
+}
 
 // Message, sender and sequence number, if the piece is one whole frame.
 std::string frame_text(ByteView bytes) {
@@ -46,7 +53,7 @@ SetupResult<void> log_to(const std::string& path) {
         ::close(file);
         return setup_error(SetupCode::in_use, fmt::format("{} is no fault log, and stays as it is", path));
     }
-    if (size == 0) write_line(file, log_head);
+    if (size == 0) write_line(file, std::string(log_head));
     log_file = file;
     return {};
 }

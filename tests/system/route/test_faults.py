@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Faults on purpose, kind by kind: what a router, `listen`, `stat` and a simulator count must equal what was injected,
 and what arrives must agree with both. The statistics of each fault have unit tests (tests/unit/fault)."""
+import contextlib
 import json
 import os
 import time
@@ -10,6 +11,7 @@ import pytest
 import frames
 import harness
 import routers
+from disks import SmallDisk
 from routers import Router, UdpEnd
 
 pytestmark = pytest.mark.short
@@ -285,6 +287,22 @@ def test_a_router_reports_its_faults_at_start_and_in_stat(spawn, run):
         for _ in range(5):
             vehicle.send(routers.attitude())
         harness.wait_for(lambda: "fault_lost 5" in run("stat", name).stdout, what="the counter in stat")
+
+
+def test_a_log_continues_on_a_new_line_when_its_disk_was_full(spawn, tmp_path):
+    log = tmp_path / "faults.tsv"
+    with contextlib.closing(SmallDisk(tmp_path)) as disk:
+        with Path(spawn, inward="&in_fault=loss:1", more=("--fault-log", log)) as path:
+            path.send(3000)
+            harness.wait_for(lambda: path.link("vehicle")["fault_lost"] == 3000, what="the losses")
+            full = log.stat().st_size
+            disk.free(path.router.process.pid)
+            path.send(10)
+            harness.wait_for(lambda: path.link("vehicle")["fault_lost"] == 3010, what="the last losses")
+        lines = [line.split("\t") for line in log.read_text().splitlines()]
+    assert full < 3000 * 40, "the disk was full"
+    assert all(len(line) == 8 for line in lines[-10:])
+    assert sum(len(line) != 8 for line in lines) <= 1 and max(map(len, lines)) == 8
 
 
 def test_the_log_has_a_line_for_each_fault(spawn, tmp_path):
