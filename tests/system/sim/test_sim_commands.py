@@ -248,7 +248,7 @@ def test_b27_a_new_home_shows_at_once(sim):
     latitude, longitude = offset(*HOME[:2], 15, 0)
     result = station.command(179, 0, 0, 0, NAN, form="int", frame=0, x=round(latitude * 1e7), y=round(longitude * 1e7),
                              p7=HOME[2] - 20)
-    home = station.since(mark, "HOME_POSITION")[0]  # it came before the acknowledgement, or at once after it
+    home = station.expect("HOME_POSITION", since=mark)
 
     assert result == ACCEPTED
     assert (home.latitude, home.altitude) == (round(latitude * 1e7), round((HOME[2] - 20) * 1000))
