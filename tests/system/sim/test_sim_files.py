@@ -2,7 +2,6 @@
 """Behaviours 56 to 63 of docs/guide/sim-behaviour.md: files, logs and metadata; logs/ has what is in a log. pymavlink's
 own mavftp module is one client, MAVSDK another."""
 import json
-import time
 
 import pytest
 
@@ -135,7 +134,6 @@ def test_mavsdk_moves_files(sim):
     simulator = sim()
     with simulator.station() as station:
         path, size = largest_file(station)
-    started = time.monotonic()
     answer = mavsdks.run(simulator.port, "files", "", path)
 
     assert answer["root"][0] == "SUCCESS"
@@ -144,4 +142,3 @@ def test_mavsdk_moves_files(sim):
     assert [answer[name] for name in ("mkdir", "upload", "rename", "remove", "rmdir")] == ["SUCCESS"] * 5
     assert answer["again"] == ["SUCCESS", True]
     assert answer["missing"] == "FILE_DOES_NOT_EXIST"
-    assert time.monotonic() - started < 60
