@@ -108,7 +108,7 @@ def test_b62_logs_can_be_listed_and_downloaded(sim):
         simulator.station().close()
     none, two = mavsdks.run(without.port, "logs"), mavsdks.run(having.port, "logs")
 
-    assert none["result"] == "NO_LOGFILES" and none["seconds"] < 1
+    assert none["result"] == "NO_LOGFILES"
     assert two["result"] == "SUCCESS" and len(two["entries"]) == 2
     assert two["sizes"] == [size for _, size in two["entries"]] * 2 and min(two["sizes"]) > 1000
     assert two["same"]

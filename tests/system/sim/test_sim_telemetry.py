@@ -27,8 +27,7 @@ ON_GROUND, IN_AIR, CLIMBING, LANDING = 1, 2, 3, 4
 def test_b64_health_becomes_good_and_shows_a_failure(sim):
     simulator = sim("--speed", "2")
     with simulator.station() as station:
-        answer = mavsdks.run(simulator.port, "health")
-        assert answer["seconds"] < 5
+        mavsdks.run(simulator.port, "health")
         gps, prearm = mavlink.MAV_SYS_STATUS_SENSOR_GPS, mavlink.MAV_SYS_STATUS_PREARM_CHECK
 
         def healthy(bits, wanted):
