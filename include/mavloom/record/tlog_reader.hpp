@@ -46,9 +46,9 @@ public:
     // that a badly damaged file does not block its caller.
     [[nodiscard]] Result<Record, Stop> next(std::uint64_t max_damage = ~std::uint64_t{0});
     // Returns the next record of one message. It is faster than `next`: while records follow each other without a gap,
-    // it skips other known messages without checking their checksums. Where the sequence breaks, it goes back and
-    // examines the records that it had just skipped. It does not count damage within records that it skipped.
-    // After `max_bytes` without a record of the message it returns Stop::damage.
+    // it skips other known messages without checking their checksums; where the sequence breaks, it examines them.
+    // It counts no damage within skipped records, and misses a record to whose end the damaged length of the one before
+    // reaches. After `max_bytes` without a record of the message it returns Stop::damage.
     [[nodiscard]] Result<Record, Stop> next_of(MessageId id, std::uint64_t max_bytes = ~std::uint64_t{0});
     [[nodiscard]] const SetupError& error() const noexcept { return *error_; }
     // Waits for data after Stop::nothing_yet; see File::wait.
