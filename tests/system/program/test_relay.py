@@ -99,7 +99,8 @@ def test_a_far_side_that_goes_is_a_loss_with_status_4(spawn, tcp_port):
     done = process.wait()
 
     assert done.status == 4, done.stderr
-    assert "there was no peer" in done.stderr or "dropped" in done.stderr
+    reasons = ("there was no peer", "dropped", "still queued at the end, not sent")  # by how far the relay was
+    assert any(reason in done.stderr for reason in reasons), done.stderr
 
 
 def test_live_frames_are_byte_identical(spawn):
