@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "frames/receiving.hpp"
 #include "mavloom/control/service_manager.hpp"
 #include "mavloom/simserve/hil_simulator.hpp"
 #include "open_control.hpp"

@@ -5,7 +5,9 @@
 // checksum of all values. A client that already has these values sets `_HASH_CHECK`, and the list ends.
 #pragma once
 
+#include <functional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "flight/firmware/firmware.hpp"
@@ -25,7 +27,7 @@ public:
           radio_(radio),
           announcer_(announcer),
           max_clients_(max_clients),
-          on_change_(on_change) {}
+          on_change_(std::move(on_change)) {}
 
     [[nodiscard]] std::span<const MessageId> handled() const noexcept override;
     void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
