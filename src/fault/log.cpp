@@ -22,7 +22,7 @@ std::atomic<int> log_file{-1};
 
 constexpr std::string_view log_head = "time_us\tlink\tdirection\tfault\tbytes\tmessage\tsender\tsequence\n";
 
-// A full disk may take only the beginning of a line. The next one then begins on a line of its own.
+// A full disk may take only the first part of a line. A line break then separates it from the next line.
 void write_line(int file, std::string line) {
     static std::atomic<bool> is_torn{false};
     const bool was_torn = is_torn.exchange(false);

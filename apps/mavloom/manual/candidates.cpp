@@ -2,6 +2,7 @@
 #include "manual/candidates.hpp"
 
 #include <algorithm>
+#include <ranges>
 
 #include "mavloom/endpoint/schemes.hpp"
 
@@ -116,10 +117,11 @@ void add_values(Candidates& out, const Place& place, const DeclaredOption& optio
     out.and_files = placeholder.find("FILE") != placeholder.npos || placeholder.ends_with(".toml");
 }
 
-// The program's own options stand before its commands, those of a command also behind its parts.
+// Options of the program are accepted only before a command, options of a command also after its subcommands.
 void add_options(Candidates& out, const Place& place) {
-    for (auto i = std::min<std::size_t>(1, place.commands.size() - 1); i < place.commands.size(); ++i)
-        for (const auto& option : place.commands[i]->options) {
+    const std::size_t program = place.commands.size() > 1 ? 1 : 0;
+    for (const auto* command : place.commands | std::views::drop(program))
+        for (const auto& option : command->options) {
             const auto& name = option.names.back();
             if (!option.is_positional && std::ranges::find(out.all, name, &Candidate::word) == out.all.end())
                 out.all.push_back({name, option.description});

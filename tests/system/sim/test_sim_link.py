@@ -135,7 +135,7 @@ def test_b08_mavsdk_finds_the_vehicle_and_notices_its_end(sim):
         simulator.stop()
         noticed = client.answer()["at"]
 
-    assert noticed > alive
+    assert noticed - alive > 1  # MAVSDK waits for 3 s
 
 
 def test_b10_250_vehicles_share_one_port(sim):

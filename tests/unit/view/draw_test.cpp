@@ -315,12 +315,16 @@ TEST_F(DrawTest, InARecordingSpaceHasOneMeaning) {
     EXPECT_THAT(help, Not(HasSubstr("the picture stands still")));
 }
 
+void forget_frames(Snapshot& shown) {
+    shown.frames = 0;
+    shown.rows.clear();
+}
+
 TEST_F(DrawTest, WhileNothingIsHeardHintsAreShown) {
     auto shown = taken();
     shown->hints = {"reading udpin://0.0.0.0:14550", "a vehicle may be at /dev/ttyACM0: to read it, name the source"};
     EXPECT_THAT(draw(*shown, state, {40, 10}, Glyphs::ascii).text(), Not(HasSubstr("a vehicle may be at")));
-    shown->frames = 0;
-    shown->rows.clear();
+    forget_frames(*shown);
     EXPECT_THAT(draw(*shown, state, {40, 10}, Glyphs::ascii).text(), HasSubstr(" nothing to show\n"
                                                                                " reading udpin://0.0.0.0:14550\n"
                                                                                " a vehicle may be at /dev/ttyACM0: to\n"
@@ -331,8 +335,7 @@ TEST_F(DrawTest, WhileNothingIsHeardOfANamedSourceItsLastReportIsShown) {
     auto shown = taken();
     shown->notices = {"serial:///dev/ttyACM0: up", "serial:///dev/ttyACM0: cannot open it; trying again"};
     EXPECT_THAT(draw(*shown, state, {40, 10}, Glyphs::ascii).text(), Not(HasSubstr("cannot open")));
-    shown->frames = 0;
-    shown->rows.clear();
+    forget_frames(*shown);
     EXPECT_THAT(draw(*shown, state, {40, 10}, Glyphs::ascii).text(),
                 HasSubstr(" nothing to show\n"
                           " serial:///dev/ttyACM0: cannot open it;\n"
