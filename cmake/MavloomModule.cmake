@@ -18,12 +18,12 @@ endfunction()
 set(mavloom_unoptimised_debug $<$<AND:$<CONFIG:Debug>,$<NOT:$<BOOL:${MAVLOOM_FUZZ}>>>:-O0>)
 set(mavloom_cold_flags $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-O1> ${mavloom_unoptimised_debug})
 
-# -Wrestrict: GCC 12 is wrong about std::string (GCC bug 105329). In a unity build, GCC takes anonymous namespaces for
-# those of a header, and finds more names shadowed than Clang does.
+# -Wrestrict: GCC 12 is wrong about std::string (GCC bug 105329). In a unity build, names shadow those of other files,
+# and GCC takes anonymous namespaces for those of a header.
 add_library(mavloom_warnings INTERFACE)
 set(mavloom_shadow -Wshadow)
 if(CMAKE_UNITY_BUILD)
-  set(mavloom_shadow $<IF:$<COMPILE_LANG_AND_ID:CXX,GNU>,-Wno-subobject-linkage,-Wshadow>)
+  set(mavloom_shadow $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage>)
 endif()
 target_compile_options(mavloom_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconversion ${mavloom_shadow}
                        -Wno-sign-conversion -Wcast-align

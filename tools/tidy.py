@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 """tidy.py units|headers|sources BUILD: checks the whole tree, for `./run tidy`. BUILD has compile_commands.json, and no
 unity files.
+tidy.py files BUILD [SOURCE...]: checks these sources.
 
-units: clang-tidy over many sources at a time, which share the cost of headers.
+units, files: clang-tidy over many sources at a time, which share the cost of headers; over a few, each alone.
 headers, sources: the compiler's warnings, over each public header or each source by itself. This finds files that do
        not include what they use.
 
@@ -20,6 +21,8 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 TOPS = ("src", "apps", "tools", "python/src")
 FILES_A_UNIT = 70
+FEW_FILES = 16
+CLANG_TIDY = ("clang-tidy-16", "--quiet", "--warnings-as-errors=*")
 INCLUDE = re.compile(r'^#include "(.+)"', re.MULTILINE)
 
 
@@ -70,24 +73,36 @@ def unite(group: list[dict[str, str]], path: pathlib.Path) -> dict[str, str]:
 
 
 def check_units(build: pathlib.Path) -> bool:
+    return check_united(build, compile_commands(build))
+
+
+def check_united(build: pathlib.Path, entries: list[dict[str, str]]) -> bool:
     """The analyzer follows functions of included sources only if the file is called UnifiedSource
     (AnalysisManager::isInCodeFile of Clang)."""
     database = build / "units"
     database.mkdir(exist_ok=True)
-    groups = sorted(groups_of(compile_commands(build)), key=len, reverse=True)
+    groups = sorted(groups_of(entries), key=len, reverse=True)
     entries = [unite(group, database / f"UnifiedSource{number}.cpp") for number, group in enumerate(groups)]
     (database / "compile_commands.json").write_text(json.dumps(entries))
-    return all_passed([[*clang_tidy(), "-p", str(database), entry["file"]] for entry in entries], build)
+    return all_passed([[*tidy_of_units(), "-p", str(database), entry["file"]] for entry in entries], build)
 
 
-def clang_tidy() -> list[str]:
-    command = ["clang-tidy-16", "--quiet", "--warnings-as-errors=*"]
+def check_files(build: pathlib.Path, *sources: str) -> bool:
+    wanted = {str(ROOT / source) for source in sources}
+    entries = [entry for entry in compile_commands(build) if entry["file"] in wanted]
+    print(len(entries), "files", flush=True)
+    if len(entries) > FEW_FILES:
+        return check_united(build, entries)
+    return all_passed([[*CLANG_TIDY, "-p", str(build), entry["file"]] for entry in entries], build)
+
+
+def tidy_of_units() -> list[str]:
     if os.environ.get("MAVLOOM_FULL"):
         config, changes = re.subn(r"max-nodes=\d+", "max-nodes=225000", (ROOT / ".clang-tidy").read_text())
         assert changes == 1
-        return [*command, "--checks=clang-diagnostic-*", f"--config={config}"]
+        return [*CLANG_TIDY, "--checks=clang-diagnostic-*", f"--config={config}"]
     # The second is a tenth of the time, most of it in headers of libraries.
-    return [*command, "--checks=clang-diagnostic-*,-performance-unnecessary-value-param"]
+    return [*CLANG_TIDY, "--checks=clang-diagnostic-*,-performance-unnecessary-value-param"]
 
 
 def compiler(entry: dict[str, str]) -> list[str]:
@@ -144,11 +159,12 @@ def check_sources(build: pathlib.Path) -> bool:
 
 
 def main() -> int:
-    checks = {"units": check_units, "headers": check_headers, "sources": check_sources}
-    if len(sys.argv) != 3 or sys.argv[1] not in checks:
+    checks = {"units": check_units, "files": check_files, "headers": check_headers, "sources": check_sources}
+    check, build, *files = sys.argv[1:] if len(sys.argv) > 2 else ("", "")
+    if check not in checks or (files and check != "files"):
         print(__doc__, file=sys.stderr)
         return 2
-    return 0 if checks[sys.argv[1]](pathlib.Path(sys.argv[2]).resolve()) else 1
+    return 0 if checks[check](pathlib.Path(build).resolve(), *files) else 1
 
 
 if __name__ == "__main__":

@@ -80,8 +80,8 @@ private:
     std::optional<Pty> far_ = std::make_optional<Pty>();
 };
 
-struct Played final : Transport {
-    explicit Played(std::shared_ptr<Mailbox> box) : mailbox(std::move(box)) { last = this; }
+struct PlayedTransport final : Transport {
+    explicit PlayedTransport(std::shared_ptr<Mailbox> box) : mailbox(std::move(box)) { last = this; }
     SetupResult<void> open(const std::vector<net::Address>&) override { return {}; }
     std::size_t send(PeerNumber peer, std::span<const iovec> frames) override {
         for (const iovec& piece : frames) {
@@ -94,25 +94,27 @@ struct Played final : Transport {
     void close(PeerNumber, std::string_view) override {}
     void resume() override {}
 
-    static inline Played* last = nullptr;
+    static inline PlayedTransport* last = nullptr;
     std::shared_ptr<Mailbox> mailbox;
     Bytes sent;
 };
 
-class Threaded final : public FarSide {
+class ThreadedFarSide final : public FarSide {
 public:
     void open(Node& node, const std::string& options) override {
         register_transport(endpoint::Scheme::wsout,
                            [](const endpoint::Endpoint&, std::shared_ptr<Mailbox> mailbox) -> std::unique_ptr<Transport> {
-                               return std::make_unique<Played>(std::move(mailbox));
+                               return std::make_unique<PlayedTransport>(std::move(mailbox));
                            });
         endpoint = node.add("wsout://127.0.0.1:14550?" + options);
-        Played::last->mailbox->join({.number = 1, .address = {}});
+        PlayedTransport::last->mailbox->join({.number = 1, .address = {}});
         ASSERT_TRUE(until([&] { return node.recorder.ups.size() == 1; }, node));
     }
-    void write(const Bytes& bytes) override { EXPECT_TRUE(Played::last->mailbox->deliver(1, bytes, wall_now())); }
-    Bytes read() override { return std::exchange(Played::last->sent, {}); }
-    void close() override { Played::last->mailbox->leave(1, "closed by the far side"); }
+    void write(const Bytes& bytes) override {
+        EXPECT_TRUE(PlayedTransport::last->mailbox->deliver(1, bytes, wall_now()));
+    }
+    Bytes read() override { return std::exchange(PlayedTransport::last->sent, {}); }
+    void close() override { PlayedTransport::last->mailbox->leave(1, "closed by the far side"); }
 };
 
 // ---- stages ---------------------------------------------------------------------------------------------------------
@@ -189,7 +191,7 @@ protected:
     LinkId id;
     Bytes got;
 };
-using Kinds = ::testing::Types<Udp, Tcp, Serial, Threaded>;
+using Kinds = ::testing::Types<Udp, Tcp, Serial, ThreadedFarSide>;
 TYPED_TEST_SUITE(StagesOf, Kinds);
 
 // ---- what a stage may do --------------------------------------------------------------------------------------------
@@ -309,7 +311,7 @@ TYPED_TEST(StagesOf, WhatExceedsQueueBytesIsDroppedAndCounted) {
 // Each takes memory, however short it is.
 TEST(Stages, ManyShortPiecesAreDroppedToo) {
     Node node;
-    Threaded far;
+    ThreadedFarSide far;
     far.open(node, "queue_bytes=1000");
     const LinkId link = node.recorder.ups.at(0).first;
     ASSERT_TRUE(node.links->set_stages(link, [](const StageSite&) { return inward({hold(1h)}); }));
@@ -382,7 +384,7 @@ TYPED_TEST(StagesOf, WhatIsHeldAtTheEndOfALinkIsDeliveredOrCounted) {
         EXPECT_TRUE(is_gone);
         EXPECT_EQ(sums.gone.held_dropped.value(), 1u);
     }
-    if constexpr (std::is_same_v<TypeParam, Serial> || std::is_same_v<TypeParam, Threaded>) {
+    if constexpr (std::is_same_v<TypeParam, Serial> || std::is_same_v<TypeParam, ThreadedFarSide>) {
         EXPECT_EQ(this->node.links->queued_bytes(this->id), heartbeat(2).size()) << "for the next connection";
     }
     this->node.links->remove(this->far.endpoint);
