@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""changed_sources.py BASE: prints the .cpp files of the library, the program and the Python package that have changed
-since the commit BASE, or that include a changed header, directly or indirectly.
+"""changed_sources.py BASE: prints the .cpp files of the library, the program and the Python package, and the public
+headers, that have changed since the commit BASE, or that include a changed header, directly or indirectly.
 
 The exit status is 3 if something changed that every file depends on (the build, the dialects, clang-tidy's rules). All
 files must be checked then."""
@@ -11,9 +11,8 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 TOPS = ("include", "src", "apps", "python/src")
-# The rest of cmake/ installs and links, which no source file sees.
-OF_ALL = re.compile(r"^(CMakeLists\.txt|CMakePresets\.json|\.clang-tidy|"
-                    r"cmake/Mavloom(Hardening|Dependencies|Module|Dialect|DefaultDialect)\.cmake)$|"
+# The rest of the build lists, installs and links, which no source file sees.
+OF_ALL = re.compile(r"^(\.clang-tidy|cmake/Mavloom(Module|Dialect|DefaultDialect)\.cmake)$|"
                     r"^dialects/|^tools/dialectgen/")
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
 
@@ -54,7 +53,8 @@ def main() -> int:
         if path not in found:
             found.add(path)
             waiting += users.get(spelling_of(path), ())
-    print("\n".join(sorted(path for path in found if path.endswith(".cpp") and (ROOT / path).exists())))
+    print("\n".join(sorted(path for path in found
+                           if path.startswith("include/") or path.endswith(".cpp") if (ROOT / path).exists())))
     return 0
 
 

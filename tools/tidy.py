@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """tidy.py units|headers|sources BUILD: checks the whole tree, for `./run tidy`. BUILD has compile_commands.json, and no
 unity files.
-tidy.py files BUILD [SOURCE...]: checks these sources.
+tidy.py files BUILD [FILE...]: checks these sources and public headers.
 
-units, files: clang-tidy over many sources at a time, which share the cost of headers; over a few, each alone.
+units: clang-tidy over many sources at a time, which share the cost of headers. With `files`: over a few, each alone.
 headers, sources: the compiler's warnings, over each public header or each source by itself. This finds files that do
        not include what they use.
 
@@ -87,13 +87,16 @@ def check_united(build: pathlib.Path, entries: list[dict[str, str]]) -> bool:
     return all_passed([[*tidy_of_units(), "-p", str(database), entry["file"]] for entry in entries], build)
 
 
-def check_files(build: pathlib.Path, *sources: str) -> bool:
-    wanted = {str(ROOT / source) for source in sources}
-    entries = [entry for entry in compile_commands(build) if entry["file"] in wanted]
-    print(len(entries), "files", flush=True)
+def check_files(build: pathlib.Path, *files: str) -> bool:
+    wanted = {ROOT / file for file in files}
+    entries = [entry for entry in compile_commands(build) if pathlib.Path(entry["file"]) in wanted]
+    headers = {name: path for name, path in public_headers(build).items() if path in wanted}
+    print(f"{len(entries)} sources, {len(headers)} public headers", flush=True)
     if len(entries) > FEW_FILES:
-        return check_united(build, entries)
-    return all_passed([[*CLANG_TIDY, "-p", str(build), entry["file"]] for entry in entries], build)
+        clean = check_united(build, entries)
+    else:
+        clean = all_passed([[*CLANG_TIDY, "-p", str(build), entry["file"]] for entry in entries], build)
+    return check_alone(build, headers) and clean
 
 
 def tidy_of_units() -> list[str]:
@@ -142,11 +145,15 @@ def chains_of(headers: dict[str, pathlib.Path]) -> list[list[str]]:
 
 
 def check_headers(build: pathlib.Path) -> bool:
+    return check_alone(build, public_headers(build))
+
+
+def check_alone(build: pathlib.Path, headers: dict[str, pathlib.Path]) -> bool:
     """A source of the last header's module has the options."""
     module_in = re.compile(r"/mavloom_([a-z]+)(_cold|_core)?\.dir/")
     options = {found[1]: compiler(entry) for entry in compile_commands(build)
                if (found := module_in.search(entry["command"]))}
-    headers, commands = public_headers(build), []
+    commands = []
     for chain in chains_of(headers):
         module = chain[-1].split("/")[1].replace("msg", "message")
         included = [word for name in chain for word in ("-include", str(headers[name]))]

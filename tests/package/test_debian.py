@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The Debian packages that `./run package` builds: lintian reads them, and dpkg installs, upgrades and purges them in a
-clean root made by debootstrap."""
+"""The Debian packages that `./run package` builds: dpkg installs, upgrades and purges them in a clean root
+made by debootstrap. With `.ci/run --full`, lintian reads them."""
 import os
 import pathlib
 import platform
@@ -155,10 +155,10 @@ def test_packages_install_run_and_go_without_a_trace(tmp_path):
         pytest.skip("packages are made of a release build")
     packages = make_packages(BUILD, tmp_path / "packages")
     check_files(packages)
-    for tool in ("lintian", "debootstrap"):
-        if not shutil.which(tool):
-            pytest.skip(f"{tool} is missing: ./run test installs it")
-    check_with_lintian(packages)
+    if "MAVLOOM_FULL" in os.environ:
+        check_with_lintian(packages)
+    if not shutil.which("debootstrap"):
+        pytest.skip("debootstrap is missing: ./run test installs it")
     if os.geteuid() != 0 or mirror() is None:
         pytest.skip("a clean root needs root and a Debian mirror in the machine's sources")
     make_clean_root(tmp_path / "root", [packages["mavloom"], packages["python3-mavloom"]], "systemd")

@@ -36,7 +36,9 @@ def changed(tree, base="HEAD"):
 
 
 @pytest.mark.parametrize("edited, wanted", [
-    ("include/mavloom/base/a.hpp", ["src/base/a.cpp", "src/wire/b.cpp"]), ("src/wire/private.hpp", ["src/wire/b.cpp"]),
+    ("include/mavloom/base/a.hpp",
+     ["include/mavloom/base/a.hpp", "include/mavloom/wire/b.hpp", "src/base/a.cpp", "src/wire/b.cpp"]),
+    ("src/wire/private.hpp", ["src/wire/b.cpp"]),
     ("src/net/c.cpp", ["src/net/c.cpp"]), ("apps/mavloom/own.hpp", ["apps/mavloom/main.cpp"]), ("docs/page.md", []),
     ("src/net/new.cpp", ["src/net/new.cpp"]),
 ])
@@ -47,7 +49,7 @@ def test_what_differs_and_what_includes_it(tree, edited, wanted):
 
 
 @pytest.mark.parametrize("edited, of_all", [
-    ("CMakeLists.txt", True), ("cmake/MavloomModule.cmake", True), ("dialects/common.xml", True),
+    ("CMakeLists.txt", False), ("cmake/MavloomModule.cmake", True), (".clang-tidy", True), ("dialects/common.xml", True),
     ("cmake/MavloomPackage.cmake", False), ("bench/CMakeLists.txt", False),
 ])
 def test_a_change_of_how_all_is_compiled_is_one_of_everything(tree, edited, of_all):
