@@ -28,7 +28,7 @@ void Engine::Impl::learn(Passage& p) noexcept {
 }
 
 bool Engine::Impl::is_believed(const Passage& p) noexcept {
-    LinkId holder;
+    Claimant holder;
     const auto answer = trust_.judge(p.source, p.link.claimant, p.now, holder);
     if (answer == Trust::Answer::believed) [[likely]]
         return true;
@@ -40,9 +40,8 @@ bool Engine::Impl::is_believed(const Passage& p) noexcept {
     if (p.now - claim.since < consistent_for) return false;
     const bool has_earned = answer == Trust::Answer::contested && !p.link.policy.learns_first;
     const bool is_new = claim.last_heard - claim.since < consistent_for;
-    const Slot held_on = slot_of(holder);
-    const bool is_verified = held_on != no_slot && links[held_on]->policy.rank == Rank::verified;
-    if ((has_earned || is_new) && !is_verified) report_conflict({p.frame.system(), holder, p.link.id, has_earned});
+    if ((has_earned || is_new) && holder.rank != Rank::verified)
+        report_conflict({p.frame.system(), holder.link, p.link.id, has_earned});
     return has_earned;
 }
 

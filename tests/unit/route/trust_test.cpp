@@ -167,6 +167,16 @@ TEST_F(Trusting, ALinkThatIsNotBelievedIsReportedOnce) {
     EXPECT_THAT(command(), ElementsAre(1));
 }
 
+// Its advice would be `trusted=true`, which helps nobody against a verified link.
+TEST_F(Trusting, AConflictWithAVerifiedLinkIsNotReportedWhetherItIsThereOrGone) {
+    connect(verified, own);
+    hear({1, 2}, 10s);
+    hear({1}, 3s);
+    sut.engine.remove_link(LinkId{1});
+    hear({2}, 20s);
+    EXPECT_EQ(sut.engine.counters().route_conflicts.value(), 0u);
+}
+
 TEST_F(Trusting, LearnFirstKeepsTheFirstUntilItIsSilent) {
     sut.link({.rank = stranger});
     sut.link({.rank = stranger, .learns_first = true});
