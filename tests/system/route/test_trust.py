@@ -22,7 +22,7 @@ PORT, OTHER_PORT = 14550, 14560
 # ---- on one machine --------------------------------------------------------------------------------------------------
 
 @pytest.mark.short
-@pytest.mark.parametrize("kind", ["peers", "udpin", "udpout", "tcpin", "serial"])
+@pytest.mark.parametrize("kind", ["peers", "udpin", "udpout", "tcpin", "wsin", "wsout", "serial"])
 def test_a_vehicle_may_move_between_own_links(spawn, kind):
     with Net(spawn, kind, 3, rules={"route_timeout": 2}) as net:
         net.hears(1, VEHICLE)
@@ -136,6 +136,8 @@ def test_a_vehicle_behind_nat_may_change_its_port(here, machines, ends):
     # There is a station on the vehicle's side too, with the same id.
     beat(here, (before, STATION), (before, VEHICLE), (station, STATION), (after, (0, 0)))
     assert reached(station, before, after) == [0]
+    before.send(reply := answer(STATION))
+    station.until(reply)
 
     def moved():
         after.send(heartbeat(VEHICLE))
@@ -143,6 +145,8 @@ def test_a_vehicle_behind_nat_may_change_its_port(here, machines, ends):
     began = time.monotonic()
     harness.wait_for(moved, timeout=10, what="a command at the new port")
     assert time.monotonic() - began < 4.5, "another stranger would have to wait for 5 s"
+    after.send(reply := answer(STATION))
+    station.until(reply)
 
 
 @pytest.mark.parametrize("first_is_here", [True, False])

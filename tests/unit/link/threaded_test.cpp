@@ -256,6 +256,25 @@ TEST_F(Threaded, RanksFollowTheAddressAndForeignClientsAreStrangers) {
     EXPECT_EQ(node.links->rank(node.recorder.ups[2].first), Rank::stranger);
 }
 
+// Behind a proxy that ends TLS, all clients have its address.
+TEST_F(Threaded, TrustedDecidesForAllClients) {
+    for (const auto& [url, expected] : {std::pair{"wsin://127.0.0.1:14550?trusted=true", Rank::own},
+                                        {"wsin://127.0.0.1:14551?trusted=false", Rank::stranger}}) {
+        node.recorder.ups.clear();
+        Played& transport = connected(url);
+        transport.mailbox->join({.number = 2, .address = net::Address::parse("127.0.0.1", 998), .is_foreign = true});
+        transport.mailbox->join({.number = 3, .address = net::Address::parse("198.51.100.1", 998)});
+        node.poll();
+        ASSERT_THAT(node.recorder.ups, SizeIs(3));
+        for (const auto& up : node.recorder.ups) EXPECT_EQ(node.links->rank(up.first), expected) << url;
+    }
+}
+
+TEST_F(Threaded, AServerThatTheUserNamedIsOwn) {
+    connected("wsout://192.0.2.1:14550");
+    EXPECT_EQ(node.links->rank(node.recorder.ups.at(0).first), Rank::own);
+}
+
 TEST_F(Threaded, AnIdleClientIsClosed) {
     Played& transport = connected("wsin://127.0.0.1:14550?idle=20ms");
     ASSERT_TRUE(until([&] { return !node.recorder.downs.empty(); }, node));
