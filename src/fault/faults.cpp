@@ -89,35 +89,35 @@ SetupResult<void> apply(const Change& change, const endpoint::Endpoint& endpoint
 }
 
 // An endpoint, or one of its links.
-struct Place {
+struct FaultTarget {
     link::EndpointInfo endpoint;
     std::optional<LinkId> link;
 };
 
-std::optional<Place> find(const link::Links& links, std::string_view name) {
+std::optional<FaultTarget> find(const link::Links& links, std::string_view name) {
     const auto endpoints = links.endpoints();
     for (const auto& endpoint : endpoints)
-        if (endpoint.label() == name || endpoint.endpoint.label() == name) return Place{endpoint, {}};
+        if (endpoint.label() == name || endpoint.endpoint.label() == name) return FaultTarget{endpoint, {}};
     const auto all = links.links();
     const auto link = std::ranges::find(all, name, &link::LinkInfo::name);
     if (link == all.end()) return std::nullopt;
     const auto endpoint = std::ranges::find(endpoints, link->endpoint, &link::EndpointInfo::id);
     if (endpoint == endpoints.end()) return std::nullopt;
-    return Place{*endpoint, link->id};
+    return FaultTarget{*endpoint, link->id};
 }
 
 // Without faults, the seed is that of the endpoint's options.
-Plan plan_at(const link::Links& links, const Place& place) {
-    const auto* const by = place.link ? links.stages_by(*place.link) : links.stages_by(place.endpoint.id);
+Plan plan_at(const link::Links& links, const FaultTarget& target) {
+    const auto* const by = target.link ? links.stages_by(*target.link) : links.stages_by(target.endpoint.id);
     const Maker* const maker = by == nullptr ? nullptr : by->target<Maker>();
     if (maker != nullptr && maker->plan.any()) return maker->plan;
-    return {.in = {}, .out = {}, .seed = place.endpoint.endpoint.options.fault_seed.value_or(1)};
+    return {.in = {}, .out = {}, .seed = target.endpoint.endpoint.options.fault_seed.value_or(1)};
 }
 
-bool put_stages(link::Links& links, const Place& place, const Plan& plan) {
-    const Maker maker{plan, place.endpoint.endpoint.label()};
-    if (place.link) return links.set_stages(*place.link, maker);
-    return links.set_stages(place.endpoint.id, plan.any() ? link::CreateStages(maker) : nullptr);
+bool put_stages(link::Links& links, const FaultTarget& target, const Plan& plan) {
+    const Maker maker{plan, target.endpoint.endpoint.label()};
+    if (target.link) return links.set_stages(*target.link, maker);
+    return links.set_stages(target.endpoint.id, plan.any() ? link::CreateStages(maker) : nullptr);
 }
 
 }  // namespace

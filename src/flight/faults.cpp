@@ -15,11 +15,11 @@ using enum FaultPart;
 using enum FaultKind;
 
 constexpr double largest_error_m = 100'000;  // farther away, the local plane differs too much from the earth
-constexpr double most_motors = 16;
+constexpr double max_motors = 16;
 
 constexpr FaultForm form(FaultPart part, FaultKind kind) { return {.part = part, .kind = kind}; }
 constexpr FaultForm of_number(FaultPart part, FaultKind kind) {
-    return {.part = part, .kind = kind, .most = 1, .lowest = 1, .highest = most_motors, .usage = "[NUMBER]"};
+    return {.part = part, .kind = kind, .most = 1, .lowest = 1, .highest = max_motors, .usage = "[NUMBER]"};
 }
 
 constexpr std::array forms{

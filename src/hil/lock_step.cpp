@@ -63,7 +63,7 @@ Nanoseconds LockStep::pace() const noexcept {
 void LockStep::count_unanswered(MonoTime now) noexcept {
     if (state_ == State::booting) return;
     ++counters_.unanswered;
-    if (++missed_ >= most_missed && state_ == State::lock_step) lose(now);
+    if (++missed_ >= max_missed && state_ == State::lock_step) lose(now);
 }
 
 void LockStep::lose(MonoTime now) noexcept {

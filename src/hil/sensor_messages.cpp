@@ -147,7 +147,7 @@ void SensorMessages::add_further_imus(const SensedVehicle& vehicle, FlightTime n
 void SensorMessages::add_fixes(const SensedVehicle& vehicle, FlightTime now) {
     const auto& sensors = vehicle.sensors();
     const bool has_fix = sensors.samples().gps && sensors.failures().gps != Failure::off;
-    if (has_fix && waiting_ < most_waiting) fixes_[waiting_++] = {now, sensors.gps()};
+    if (has_fix && waiting_ < max_waiting) fixes_[waiting_++] = {now, sensors.gps()};
     if (waiting_ == 0 || fixes_[0].measured + gps_delay_ > now) return;
     add_fix(vehicle, fixes_[0]);
     std::move(fixes_.begin() + 1, fixes_.begin() + static_cast<std::ptrdiff_t>(waiting_--), fixes_.begin());

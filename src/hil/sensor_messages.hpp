@@ -57,7 +57,7 @@ private:
         flight::FlightTime measured{};
         flight::GpsFix gps;
     };
-    static constexpr std::size_t most_frames = 8, most_waiting = 32;
+    static constexpr std::size_t max_frames = 8, max_waiting = 32;
 
     template <class Message>
     void add(const Message& message);
@@ -75,11 +75,11 @@ private:
     std::uint8_t sequence_ = 0;
     Beat truth_, distance_, heartbeat_;
     unsigned magnetic_samples_ = 0, pressure_samples_ = 0;
-    double distance_m_ = 0;                  // as last measured
-    std::array<Fix, most_waiting> fixes_{};  // those that wait, the oldest first
+    double distance_m_ = 0;                 // as last measured
+    std::array<Fix, max_waiting> fixes_{};  // those that wait, the oldest first
     std::size_t waiting_ = 0;
-    std::array<wire::FrameBuffer, most_frames> buffers_{};
-    std::array<wire::FrameView, most_frames> frames_{};
+    std::array<wire::FrameBuffer, max_frames> buffers_{};
+    std::array<wire::FrameView, max_frames> frames_{};
     std::size_t used_ = 0;
 };
 

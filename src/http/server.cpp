@@ -43,13 +43,13 @@ bool make_room(ServerState& server, int any_descriptor) {
     const auto& limits = server.options.limits;
     const bool has_few = net::few_descriptors_left(any_descriptor);
     const auto most = has_few ? std::min(max_with_few_descriptors, limits.clients) : limits.clients;
-    const auto most_in_grace = has_few ? most : limits.clients + limits.web_sockets;
+    const auto max_in_grace = has_few ? most : limits.clients + limits.web_sockets;
     std::erase_if(server.connections, [](const auto& one) { return one.expired(); });
     while (server.connections.size() >= most) {
         const auto idlest = find_idlest(server);
         if (idlest == nullptr || idlest->is_busy()) return false;
         const bool is_in_grace = std::chrono::steady_clock::now() - idlest->idle_since() < limits.grace;
-        if (is_in_grace && server.connections.size() < most_in_grace) return true;
+        if (is_in_grace && server.connections.size() < max_in_grace) return true;
         displace(server, idlest);
     }
     return true;

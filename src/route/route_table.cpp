@@ -12,13 +12,13 @@ static_assert(std::is_trivially_default_constructible_v<Route>, "so that no page
 
 static constexpr std::size_t systems = 256;
 
-RouteTable::RouteTable(std::size_t most, std::size_t per_link)
-    : max_routes_(most),
+RouteTable::RouteTable(std::size_t max_routes, std::size_t per_link)
+    : max_routes_(max_routes),
       per_link_(per_link),
-      routes_(new Route[most]),
-      index_(std::bit_ceil(2 * most)),
+      routes_(new Route[max_routes]),
+      index_(std::bit_ceil(2 * max_routes)),
       shift_(64u - static_cast<unsigned>(std::countr_zero(index_.size()))) {
-    assert(most != 0 && per_link != 0);
+    assert(max_routes != 0 && per_link != 0);
     resize(1);
 }
 

@@ -2,8 +2,10 @@
 // The learned routes: which system and component was heard on which link, when, and how often. Lookups return the set
 // of links for a system, or for a pair of system and component. Routes expire exactly at the timeout.
 //
-// Memory is bounded: at most `per_link` routes on one link and `most` in total. A new route evicts the stalest route of
-// its link, or, if the table is full, that of the link with the most routes. Private to module route; one owner thread.
+// Memory is bounded: at most `per_link` routes on one link and `max_routes` in total. A new route evicts the stalest
+// route of its link, or, if the table is full, that of the link with the most routes.
+//
+// Private to module route; one owner thread.
 #pragma once
 
 #include <algorithm>
@@ -51,7 +53,7 @@ public:
         std::uint32_t learned = 0, expired = 0, evicted = 0;
     };
 
-    RouteTable(std::size_t most, std::size_t per_link);
+    RouteTable(std::size_t max_routes, std::size_t per_link);
 
     // Sets the number of words in a set of links. Keeps the learned routes.
     void resize(std::size_t words);

@@ -159,10 +159,10 @@ Report resume(Simulator& simulator, const Json&) {
 }
 
 Report step(Simulator& simulator, const Json& request) {
-    constexpr double most_s = std::chrono::duration<double>(Simulator::max_step).count();
+    constexpr double max_s = std::chrono::duration<double>(Simulator::max_step).count();
     const auto time = number_at(request, "seconds").value_or(std::nullopt);
-    if (!time || !(*time > 0 && *time <= most_s))
-        return failed(fmt::format("step needs a time of the flight, up to {} s", most_s));
+    if (!time || !(*time > 0 && *time <= max_s))
+        return failed(fmt::format("step needs a time of the flight, up to {} s", max_s));
     if (!simulator.step(std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(*time))))
         return failed("the flight clock runs; pause it first");
     return report_clock(simulator);

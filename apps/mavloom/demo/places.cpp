@@ -21,10 +21,10 @@ net::Address loopback(std::uint16_t port) { return *net::Address::parse("127.0.0
 
 // Binds a port that is free.
 SetupResult<net::UdpSocket> open_somewhere(std::random_device& random) {
-    constexpr int most_tries = 100;
+    constexpr int max_tries = 100;
     std::uniform_int_distribution<std::uint16_t> ports(first_port, last_port);
     auto socket = net::UdpSocket::open(loopback(ports(random)), {});
-    for (int i = 1; !socket && i < most_tries; ++i) socket = net::UdpSocket::open(loopback(ports(random)), {});
+    for (int i = 1; !socket && i < max_tries; ++i) socket = net::UdpSocket::open(loopback(ports(random)), {});
     return socket;
 }
 

@@ -51,14 +51,14 @@ private:
 };
 
 // Longer lists are for --json.
-constexpr std::size_t most_rows = 30, most_jumps = 5;
+constexpr std::size_t max_rows = 30, max_jumps = 5;
 
 template <class Row>
-std::span<const Row> shown_of(const std::vector<Row>& rows, std::size_t most = most_rows) {
+std::span<const Row> shown_of(const std::vector<Row>& rows, std::size_t most = max_rows) {
     return std::span(rows).first(std::min(rows.size(), most));
 }
 template <class Row>
-std::string more_text(const std::vector<Row>& rows, std::size_t most = most_rows) {
+std::string more_text(const std::vector<Row>& rows, std::size_t most = max_rows) {
     return rows.size() <= most ? "" : fmt::format("... and {} more (--json has all)", rows.size() - most);
 }
 
@@ -83,12 +83,12 @@ void append_head(Out out, const RecordingInfo& info) {
         lines.add("end", utc_text(*all.end) + " UTC");
         lines.add("duration", duration_text(all.duration));
     }
-    const auto jumps = shown_of(all.clock_jumps, most_jumps);
+    const auto jumps = shown_of(all.clock_jumps, max_jumps);
     for (const auto& jump : jumps)
         lines.add("jumps", fmt::format("{}  the time goes {} by {}", clock_text(jump.when.at),
                                        jump.step < Nanoseconds{} ? "back" : "forward",
                                        duration_text(std::chrono::abs(jump.step))));
-    if (const auto more = more_text(all.clock_jumps, most_jumps); !more.empty()) lines.add("jumps", more);
+    if (const auto more = more_text(all.clock_jumps, max_jumps); !more.empty()) lines.add("jumps", more);
     lines.add("damage", damage_text(info));
 }
 

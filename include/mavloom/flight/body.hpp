@@ -35,11 +35,11 @@ struct Rotor {
 };
 
 struct CopterBody {
-    static constexpr std::size_t most_rotors = 12;  // as PX4 has
+    static constexpr std::size_t max_rotors = 12;  // as PX4 has
 
     double mass_kg = 1.5;
     std::array<double, 3> inertia_kg_m2{0.0368, 0.0368, 0.06};  // about x, y and z
-    std::array<Rotor, most_rotors> rotors{{{0.15, 0.15, 1}, {-0.15, -0.15, 1}, {0.15, -0.15, -1}, {-0.15, 0.15, -1}}};
+    std::array<Rotor, max_rotors> rotors{{{0.15, 0.15, 1}, {-0.15, -0.15, 1}, {0.15, -0.15, -1}, {-0.15, 0.15, -1}}};
     std::size_t rotor_count = 4;
     double thrust_n = 7.355;        // of one motor at full output; 4 carry twice the weight
     double moment_ratio_m = 0.041;  // torque of a rotor, divided by its thrust

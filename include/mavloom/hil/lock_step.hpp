@@ -5,7 +5,7 @@
 // The times of the steps are the autopilot's clock, so no time is ever repeated, and none goes back, even if the
 // autopilot is started again. An autopilot that is booting does not answer: steps then come in real time. From its
 // first answer on, each step waits for the answer to the one before, but for no longer than `answer_limit`. After
-// `most_missed` steps without an answer they come in real time again, until `enough_in_row` steps in a row are
+// `max_missed` steps without an answer they come in real time again, until `enough_in_row` steps in a row are
 // answered. That many answers in a row also make up for earlier steps without one.
 //
 // Plain values; reads no clock. Single owner; nothing allocates.
@@ -60,7 +60,7 @@ struct StepCounters {
 class LockStep {
 public:
     static constexpr Nanoseconds answer_limit = std::chrono::seconds{1};
-    static constexpr unsigned most_missed = 10, enough_in_row = 10;
+    static constexpr unsigned max_missed = 10, enough_in_row = 10;
 
     // `speed`: of the flight, relative to real time; `any_speed`. `has_own_clock`: a board, which flies in real time.
     LockStep(Nanoseconds step, double speed, bool has_own_clock) noexcept;

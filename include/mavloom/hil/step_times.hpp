@@ -30,11 +30,11 @@ public:
 
 private:
     static constexpr unsigned part_bits = 3, parts = 1u << part_bits;
-    static constexpr unsigned most_bits = 35;  // half a minute
+    static constexpr unsigned max_bits = 35;  // half a minute
 
     [[nodiscard]] static std::size_t bucket_of(std::uint64_t time) noexcept {
         if (time < parts) return static_cast<std::size_t>(time);
-        if (time >> most_bits != 0) return std::tuple_size_v<decltype(counts_)> - 1;
+        if (time >> max_bits != 0) return std::tuple_size_v<decltype(counts_)> - 1;
         const auto exponent = static_cast<unsigned>(std::bit_width(time)) - 1 - part_bits;
         return (exponent + 1) * parts + static_cast<std::size_t>(time >> exponent) - parts;
     }
@@ -44,7 +44,7 @@ private:
         return Nanoseconds{static_cast<std::int64_t>((bucket % parts + parts + 1) << exponent) - 1};
     }
 
-    std::array<std::uint64_t, (most_bits - part_bits + 1) * parts> counts_{};
+    std::array<std::uint64_t, (max_bits - part_bits + 1) * parts> counts_{};
     std::uint64_t total_ = 0;
 };
 

@@ -14,7 +14,7 @@ namespace mavloom::flight {
 namespace {
 
 constexpr double semi_minor = semi_major * (1 - flattening);
-constexpr int most_rounds = 20;  // three are usual; points on opposite sides of the Earth do not converge
+constexpr int max_rounds = 20;  // three are usual; points on opposite sides of the Earth do not converge
 
 struct SineCosine {
     double sine, cosine;
@@ -61,7 +61,7 @@ Vector3 LocalFrame::to_local(const GeoPoint& point) const {
     const SineCosine from = reduced_latitude(origin_.latitude), to = reduced_latitude(point.latitude);
     const double turn = wrap_pi(to_radians(point.longitude - origin_.longitude));
     double longitude = turn, distance = 0, north = 0, east = 0;
-    for (int round = 0; round < most_rounds; ++round) {
+    for (int round = 0; round < max_rounds; ++round) {
         const SineCosine side = of_angle(longitude);
         east = to.cosine * side.sine;
         north = from.cosine * to.sine - from.sine * to.cosine * side.cosine;
@@ -89,7 +89,7 @@ GeoPoint LocalFrame::to_geo(const Vector3& local) const {
     const double unbent = distance / (semi_minor * line.a);
     double angle = unbent, middle = 0;
     SineCosine arc{};
-    for (int round = 0; round < most_rounds; ++round) {
+    for (int round = 0; round < max_rounds; ++round) {
         arc = of_angle(angle);
         middle = math::cos(2 * start + angle);
         const double last = angle;

@@ -36,9 +36,9 @@ private:
 
     CopterBody body_;
     const Vector3 inertia_;
-    std::array<double, CopterBody::most_rotors> speeds_{}, thrusts_{};  // share of the full speed; N
-    double total_ = 0;                                                  // N, of all rotors with a full battery
-    double dt_ = 0, up_share_ = 0, down_share_ = 0;                     // how far the motors follow in a step of `dt_`
+    std::array<double, CopterBody::max_rotors> speeds_{}, thrusts_{};  // share of the full speed; N
+    double total_ = 0;                                                 // N, of all rotors with a full battery
+    double dt_ = 0, up_share_ = 0, down_share_ = 0;                    // how far the motors follow in a step of `dt_`
 };
 
 }  // namespace mavloom::flight

@@ -16,9 +16,9 @@ void Plant::integrate_step(const Vector3& acceleration, const Vector3& rates, do
 }
 
 bool Plant::is_finite() const {
-    constexpr double most_metres = 1e8, fastest = 1e6;  // as 32-bit numbers, also their squares are finite
+    constexpr double max_metres = 1e8, fastest = 1e6;  // as 32-bit numbers, also their squares are finite
     const auto is_within = [](const Vector3& value, double most) { return (value.array().abs() < most).all(); };
-    return is_within(motion_.position, most_metres) && is_within(motion_.velocity, fastest) &&
+    return is_within(motion_.position, max_metres) && is_within(motion_.velocity, fastest) &&
            is_within(motion_.acceleration, fastest) && is_within(motion_.rates, fastest) &&
            motion_.attitude.coeffs().allFinite();
 }

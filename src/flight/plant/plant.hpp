@@ -60,11 +60,11 @@ struct Surroundings {
 };
 
 // The commands to motors and servos, by channel: 0 to 1 for motors, -1 to 1 for servos and motors that can reverse.
-inline constexpr std::size_t most_outputs = 16;  // as HIL_ACTUATOR_CONTROLS has
-using Outputs = std::array<double, most_outputs>;
+inline constexpr std::size_t max_outputs = 16;  // as HIL_ACTUATOR_CONTROLS has
+using Outputs = std::array<double, max_outputs>;
 // The channels that a plant has.
 struct Channels {
-    std::array<bool, most_outputs> is_motor{};
+    std::array<bool, max_outputs> is_motor{};
     std::uint8_t used = 0;
 };
 

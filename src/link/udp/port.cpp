@@ -13,7 +13,7 @@ static constexpr std::size_t min_pieces = 64;
 // attempts, so a send is tried up to this many times.
 static constexpr int max_refusals = 3;
 static constexpr std::chrono::milliseconds retry_after{1};
-static constexpr std::size_t most_unsplit = 1500 - 20 - 8;  // MTU of Ethernet, less the headers of IPv4 and UDP
+static constexpr std::size_t max_unsplit = 1500 - 20 - 8;  // MTU of Ethernet, less the headers of IPv4 and UDP
 
 void UdpPeer::schedule() { port->schedule(*this); }
 
@@ -169,7 +169,7 @@ void UdpPort::receive() {
 void UdpPort::receive(const net::ReceiveBatch& batch) {
     for (std::size_t i = 0; i < batch.size(); ++i) {
         const net::Datagram datagram = batch[i];
-        if (datagram.bytes.size() > most_unsplit) [[unlikely]]
+        if (datagram.bytes.size() > max_unsplit) [[unlikely]]
             counters_.long_datagrams.add();
         UdpPeer* const peer = owner_.peer_of(*this, datagram);
         if (peer == nullptr) continue;

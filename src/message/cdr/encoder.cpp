@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array<std::uint8_t, 4> header{0x00, 0x01, 0x00, 0x00};  // CDR_LE, no options
 constexpr std::size_t length_size = 4;                                 // of the length before a text
-constexpr std::size_t most_bytes_of_a_character = 3;                   // U+FFFD in the place of one byte
+constexpr std::size_t max_bytes_of_a_character = 3;                    // U+FFFD in the place of one byte
 
 std::uint8_t* align(std::uint8_t* at, const std::uint8_t* body, std::size_t alignment) noexcept {
     while ((static_cast<std::size_t>(at - body) & (alignment - 1)) != 0) *at++ = 0;
@@ -72,7 +72,7 @@ CdrEncoder::CdrEncoder(const dialect::Message& definition)
 
 void CdrEncoder::add_text(const dialect::Field& field, Position& next) {
     steps_.push_back({field.offset, field.array_length, length_size, true});
-    max_size_ += length_size - 1 + length_size + most_bytes_of_a_character * field.size() + 1;
+    max_size_ += length_size - 1 + length_size + max_bytes_of_a_character * field.size() + 1;
     next = {1, 0};  // depends on the text
 }
 

@@ -20,7 +20,7 @@ namespace {
 // PX4 sends at once.
 constexpr Nanoseconds introduction_limit = 1s, silence_limit = 5s;
 // A peer that takes no bytes gets no further steps until it does.
-constexpr std::size_t most_queued_bytes = 32'768;
+constexpr std::size_t max_queued_bytes = 32'768;
 constexpr Nanoseconds blocked_pause = 10ms;
 
 // A link's name without that of its endpoint, with which each line begins.
@@ -111,7 +111,7 @@ void HilPort::receive(LinkId link, const wire::FrameView& frame) {
 }
 
 void HilPort::step(MonoTime now) {
-    if (links_.queued_bytes(*link_) > most_queued_bytes) {
+    if (links_.queued_bytes(*link_) > max_queued_bytes) {
         blocked_until_ = now + blocked_pause;
         return;
     }
@@ -158,7 +158,7 @@ void HilPort::note_state() {
                 "no answer to {} steps, so steps come in real time until {} in a row are answered. An autopilot "
                 "does not answer if it was stopped, if its gyroscope or accelerometer failed, if it terminated the "
                 "flight, or if sensors come more often than its parameter IMU_INTEG_RATE",
-                hil::LockStep::most_missed, hil::LockStep::enough_in_row));
+                hil::LockStep::max_missed, hil::LockStep::enough_in_row));
     const bool is_back = before == State::lost && (state_ == State::lock_step || state_ == State::real_time);
     if (is_back && !std::exchange(said_back_, true))
         say(LogLevel::info, state_ == State::lock_step ? "answers again: lock-step" : "sends again");

@@ -59,10 +59,10 @@ Report report_steps(HilSimulator& simulator, const Json& request, const std::vec
 }
 
 Report step_flights(HilSimulator& simulator, const Json& request) {
-    constexpr double most_s = 10;
+    constexpr double max_s = 10;
     const auto time = number_at(request, "seconds").value_or(std::nullopt);
-    if (!time || !(*time > 0 && *time <= most_s))
-        return failed(fmt::format("step needs a time of the flight, up to {} s", most_s));
+    if (!time || !(*time > 0 && *time <= max_s))
+        return failed(fmt::format("step needs a time of the flight, up to {} s", max_s));
     const auto pairs = pairs_of(simulator, request);
     if (!pairs) return failed(pairs.error().text);
     std::vector<flight::FlightTime> before;
@@ -110,10 +110,10 @@ Report blow(HilSimulator& simulator, const Json& request) {
 }
 
 Report load(HilSimulator& simulator, const Json& request) {
-    constexpr double least_kg = 0.05, most_kg = 500;
+    constexpr double least_kg = 0.05, max_kg = 500;
     const auto mass = number_at(request, "kg").value_or(std::nullopt);
-    if (!mass || !(*mass >= least_kg && *mass <= most_kg))
-        return failed(fmt::format("mass takes kilograms, {} to {}", least_kg, most_kg));
+    if (!mass || !(*mass >= least_kg && *mass <= max_kg))
+        return failed(fmt::format("mass takes kilograms, {} to {}", least_kg, max_kg));
     return for_each_pair(simulator, request, [&](hil::Pair& pair) { pair.set_mass(*mass); });
 }
 

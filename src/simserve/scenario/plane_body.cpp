@@ -103,7 +103,7 @@ SetupResult<void> check_controls(const PlaneBody& body) {
 
 // Steps of up to 10 ms are short against every motion of the body in fast flight.
 SetupResult<void> check_steadiness(const PlaneBody& body) {
-    constexpr double fast = 4, most_rate = 100, most_stiff = 2500;  // stall speeds, 1/s, 1/s^2
+    constexpr double fast = 4, max_rate = 100, max_stiff = 2500;  // stall speeds, 1/s, 1/s^2
     const double speed = fast * stall_speed(body),
                  force = 0.5 * flight::sea_level_density * speed * speed * body.area_m2;
     const auto rate_of = [&](double damping_of, double length, double inertia) {
@@ -114,7 +114,7 @@ SetupResult<void> check_steadiness(const PlaneBody& body) {
                                   rate_of(body.yaw_damping, body.span_m, body.inertia_kg_m2[2])});
     const double stiff = std::max(force * body.chord_m * body.pitch_stiffness / body.inertia_kg_m2[1],
                                   force * body.span_m * body.yaw_stiffness / body.inertia_kg_m2[2]);
-    if (rate <= most_rate && stiff <= most_stiff) return {};
+    if (rate <= max_rate && stiff <= max_stiff) return {};
     return plane_error("its damping or its stiffness is too large for its inertia");
 }
 

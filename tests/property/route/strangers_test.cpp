@@ -18,14 +18,14 @@ using test::Bytes;
 using test::Id;
 using test::pick;
 
-using KeylessStep = std::array<std::uint8_t, 6>;
+using StrangerStep = std::array<std::uint8_t, 6>;
 
 constexpr LinkId vehicle_link{1}, station_link{2};
 constexpr Id vehicle{1, 1}, camera{1, 100}, station{255, 190};
 constexpr Id ids[] = {vehicle, camera, station, {1, 0}, {1, 77}, {2, 1}, {255, 77}, {0, 0}};
 const Nanoseconds rests[] = {0s, 1ms, 40ms, 600ms, 1s, 2s, 6s, 11s};
 
-Bytes frame_of(const KeylessStep& s, Id source, std::uint32_t more = 0) {
+Bytes frame_of(const StrangerStep& s, Id source, std::uint32_t more = 0) {
     const Id target = pick(ids, s[3]);
     const test::Fields fields{
         {"target_system", target.system}, {"target_component", target.component}, {"param1", more}};
@@ -50,7 +50,7 @@ public:
         honest_frame(vehicle_link, test::make_frame("HEARTBEAT", vehicle, {{"custom_mode", unique()}}));
     }
 
-    void step(const KeylessStep& s) {
+    void step(const StrangerStep& s) {
         switch (s[0] % 8) {
             case 0: now_ += pick(rests, s[1]); return;
             case 1:
@@ -66,7 +66,7 @@ public:
 private:
     [[nodiscard]] static LinkId adversary(std::uint8_t n) { return LinkId{3u + n % 3u}; }
 
-    void honest(const KeylessStep& s) {
+    void honest(const StrangerStep& s) {
         const bool from_vehicle = s[1] % 2 == 0;
         const Bytes bytes = frame_of(s, from_vehicle ? (s[1] % 8 == 0 ? camera : vehicle) : station, unique());
         sent_.push_back(bytes);
@@ -82,9 +82,9 @@ private:
         (void)attacked_.route(wire::FrameView::unchecked(bytes), adversary(n), now_);
     }
     // Bytes that an honest link sent, or will send next.
-    void replay(const KeylessStep& s) {
+    void replay(const StrangerStep& s) {
         if (s[2] % 2 == 0 && !sent_.empty()) return attack(s[1], sent_[sent_.size() - 1 - s[3] % sent_.size()]);
-        KeylessStep next = s;
+        StrangerStep next = s;
         attack(s[1], frame_of(next, s[3] % 2 == 0 ? vehicle : station));
     }
     void come_and_go(std::uint8_t n) { attacked_.remove_link(adversary(n)); }
@@ -114,9 +114,9 @@ void play(std::uint8_t bits, Rank rank, bool is_predictable) {
     if (bits & 8) honest.max_rate = test::make_rates({{"COMMAND_LONG", 2}, {"HEARTBEAT", 2}, {"*", 1}});
     if (bits & 16) honest.max_bytes_per_s = 200;
     TwoRouters sut(options, honest, is_predictable);
-    const auto steps = *rc::gen::scale(10.0, rc::gen::container<std::vector<KeylessStep>>(
-                                                 rc::gen::container<KeylessStep>(rc::gen::arbitrary<std::uint8_t>())));
-    for (const KeylessStep& step : steps) sut.step(step);
+    const auto steps = *rc::gen::scale(10.0, rc::gen::container<std::vector<StrangerStep>>(
+                                                 rc::gen::container<StrangerStep>(rc::gen::arbitrary<std::uint8_t>())));
+    for (const StrangerStep& step : steps) sut.step(step);
 }
 
 RC_GTEST_PROP(Strangers, ChangeNoTrafficOfVerifiedLinks, (std::uint8_t bits)) { play(bits, Rank::verified, true); }

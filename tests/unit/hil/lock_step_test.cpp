@@ -108,7 +108,7 @@ TEST_F(LockStepTest, NoTimeIsRepeatedAndNoneGoesBack) {
 
 TEST_F(LockStepTest, ASilentAutopilotIsWaitedForOneSecondAStepThenPaced) {
     boot();
-    for (unsigned i = 0; i < LockStep::most_missed; ++i) {
+    for (unsigned i = 0; i < LockStep::max_missed; ++i) {
         step();
         EXPECT_EQ(clock.state(), State::lock_step);
     }

@@ -395,14 +395,14 @@ TEST(LinksTcpOut, ANewConnectionBeginsWithAWholeFrame) {
 
 // Otherwise the delay would be longer than three seconds after six connections. A slow machine has further rounds.
 TEST(LinksTcpOut, AfterAConnectionThatWasHeardTheDelayBeginsAgain) {
-    constexpr std::size_t usual_rounds = 6, most_rounds = 10;
+    constexpr std::size_t usual_rounds = 6, max_rounds = 10;
     constexpr std::chrono::seconds grown{3};
     const PlainSocket listening(SOCK_STREAM);
     ASSERT_EQ(::listen(listening.fd(), 1), 0);
     Node caller;
     caller.add(fmt::format("tcpout://127.0.0.1:{}", listening.port()));
     bool is_short = false;
-    for (std::size_t round = 0; round < most_rounds && !is_short; ++round) {
+    for (std::size_t round = 0; round < max_rounds && !is_short; ++round) {
         const MonoTime down = mono_now();
         ASSERT_TRUE(until([&] { return caller.recorder.ups.size() == round + 1; }, caller));
         is_short = round >= usual_rounds && mono_now() - down < grown;

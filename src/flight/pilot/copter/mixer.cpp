@@ -9,8 +9,8 @@ namespace mavloom::flight {
 
 namespace {
 
-using Columns = Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, CopterBody::most_rotors>;
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, 4, 0, CopterBody::most_rotors, 4>;
+using Columns = Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, CopterBody::max_rotors>;
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, 4, 0, CopterBody::max_rotors, 4>;
 
 constexpr double max_yaw = 0.15;  // share of the outputs that yaw may take
 

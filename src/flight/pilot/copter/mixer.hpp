@@ -37,7 +37,7 @@ private:
 
     std::size_t count_;
     double curve_, idle_;
-    std::array<Moments, CopterBody::most_rotors> factors_;
+    std::array<Moments, CopterBody::max_rotors> factors_;
     double full_thrust_ = 0;
     Vector3 full_moment_;
     Outputs outputs_{};
