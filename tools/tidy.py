@@ -73,15 +73,15 @@ def unite(group: list[dict[str, str]], path: pathlib.Path) -> dict[str, str]:
 
 
 def check_units(build: pathlib.Path) -> bool:
-    return check_united(build, compile_commands(build))
+    return check_groups(build, groups_of(compile_commands(build)))
 
 
-def check_united(build: pathlib.Path, entries: list[dict[str, str]]) -> bool:
+def check_groups(build: pathlib.Path, groups: list[list[dict[str, str]]]) -> bool:
     """The analyzer follows functions of included sources only if the file is called UnifiedSource
     (AnalysisManager::isInCodeFile of Clang)."""
     database = build / "units"
     database.mkdir(exist_ok=True)
-    groups = sorted(groups_of(entries), key=len, reverse=True)
+    groups = sorted(groups, key=len, reverse=True)
     entries = [unite(group, database / f"UnifiedSource{number}.cpp") for number, group in enumerate(groups)]
     (database / "compile_commands.json").write_text(json.dumps(entries))
     return all_passed([[*tidy_of_units(), "-p", str(database), entry["file"]] for entry in entries], build)
@@ -89,13 +89,16 @@ def check_united(build: pathlib.Path, entries: list[dict[str, str]]) -> bool:
 
 def check_files(build: pathlib.Path, *files: str) -> bool:
     wanted = {ROOT / file for file in files}
-    entries = [entry for entry in compile_commands(build) if pathlib.Path(entry["file"]) in wanted]
     headers = {name: path for name, path in public_headers(build).items() if path in wanted}
-    print(f"{len(entries)} sources, {len(headers)} public headers", flush=True)
-    if len(entries) > FEW_FILES:
-        clean = check_united(build, entries)
+    # The groups are those of the whole tree without some files: names of others do not clash.
+    groups = [[entry for entry in group if pathlib.Path(entry["file"]) in wanted]
+              for group in groups_of(compile_commands(build))]
+    sources = [entry["file"] for group in groups for entry in group]
+    print(f"{len(sources)} sources, {len(headers)} public headers", flush=True)
+    if len(sources) > FEW_FILES:
+        clean = check_groups(build, [group for group in groups if group])
     else:
-        clean = all_passed([[*CLANG_TIDY, "-p", str(build), entry["file"]] for entry in entries], build)
+        clean = all_passed([[*CLANG_TIDY, "-p", str(build), source] for source in sources], build)
     return check_alone(build, headers) and clean
 
 
