@@ -110,7 +110,7 @@ TEST_F(LinksSerial, APortThatIsRemovedAndMadeAgainComesBack) {
     EXPECT_EQ(node.info(port).counters->reconnects.value(), 1u);
     EXPECT_EQ(node.links->send(port, view(heartbeat(3))), 1u);
     Bytes got;
-    ASSERT_TRUE(collect(second, got, [&] { return got == heartbeat(3); }));
+    ASSERT_TRUE(collect(second, got, [&] { return got == heartbeat(3); })) << ::testing::PrintToString(got);
 }
 
 TEST_F(LinksSerial, WhileTurnsContinueARequiredPortIsAwaited) {
