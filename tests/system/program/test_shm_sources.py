@@ -572,7 +572,7 @@ def test_an_inlet_that_goes_and_comes_back(spawn, inlet, ring, udp_port):
             sock.close()
     done = relay.stop()
     sums = stats_of(done)["destinations"][0]
-    assert done.status == 130 and sums["frames"] >= 2 and sums["nobody_there"] > 0
+    assert done.status == 130 and sums["frames"] >= 2
 
 
 @short
