@@ -46,6 +46,8 @@ static void read_addresses(std::vector<Address>& own, std::vector<Address>& broa
         if ((it->ifa_flags & IFF_BROADCAST) != 0) add_to(broadcasts, it->ifa_broadaddr);
     }
     freeifaddrs(list);
+    // An interface without a broadcast address, as after `ip addr add` without `brd`, reports its own address as one.
+    std::erase_if(broadcasts, [&](const Address& a) { return std::ranges::find(own, a) != own.end(); });
 }
 
 // The address from which packets to other networks leave. A datagram socket that is connected sends nothing.
