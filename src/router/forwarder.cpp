@@ -144,12 +144,12 @@ std::string Forwarder::text_of(const route::RouteConflict& conflict) const {
     const auto first = name_of(conflict.first), second = name_of(conflict.second);
     if (conflict.is_believed)
         return fmt::format(
-            "system {} is alive on {} and was learned on {} too: redundant links that need group=, or a "
-            "sender that claims to be it, which verify= or learn=first prevent",
+            "system {} is alive on {} and was learned on {} too: redundant links that need group=, another vehicle "
+            "that needs an id of its own, or a sender that claims to be it, which verify= or learn=first prevent",
             conflict.system.value, first, second);
     return fmt::format(
-        "system {} is alive on {}, so {} gets nothing that is addressed to it; if you know the sender "
-        "there, trusted=true at its endpoint believes it",
+        "system {} is alive on {}, so {}, which claims to be it, gets no commands to its autopilot; if both are the "
+        "same vehicle, set trusted=true at the endpoint; if not, give the other one an id of its own",
         conflict.system.value, first, second);
 }
 
