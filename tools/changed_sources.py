@@ -2,7 +2,7 @@
 """changed_sources.py BASE: prints the .cpp files of the library, the program and the Python package, and the public
 headers, that have changed since the commit BASE, or that include a changed header, directly or indirectly.
 
-The exit status is 3 if something changed that every file depends on (the build, the dialects, clang-tidy's rules). All
+The exit status is 3 if something changed that every file depends on (clang-tidy's rules, warnings, dialects). All
 files must be checked then."""
 import pathlib
 import re
@@ -11,7 +11,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 TOPS = ("include", "src", "apps", "python/src")
-# The rest of the build lists, installs and links, which no source file sees.
+# Other files of the build do not change what clang-tidy finds in a source.
 OF_ALL = re.compile(r"^(\.clang-tidy|cmake/Mavloom(Module|Dialect|DefaultDialect)\.cmake)$|"
                     r"^dialects/|^tools/dialectgen/")
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)

@@ -90,7 +90,7 @@ def check_groups(build: pathlib.Path, groups: list[list[dict[str, str]]]) -> boo
 def check_files(build: pathlib.Path, *files: str) -> bool:
     wanted = {ROOT / file for file in files}
     headers = {name: path for name, path in public_headers(build).items() if path in wanted}
-    # The groups are those of the whole tree without some files: names of others do not clash.
+    # The groups of a check of everything. In other groups, names of two files might clash.
     groups = [[entry for entry in group if pathlib.Path(entry["file"]) in wanted]
               for group in groups_of(compile_commands(build))]
     sources = [entry["file"] for group in groups for entry in group]

@@ -28,7 +28,7 @@ void Engine::Impl::learn(Passage& p) noexcept {
 }
 
 bool Engine::Impl::is_believed(const Passage& p) noexcept {
-    Claimant holder;
+    const Claimant* holder = nullptr;
     const auto answer = trust_.judge(p.source, p.link.claimant, p.now, holder);
     if (answer == Trust::Answer::believed) [[likely]]
         return true;
@@ -40,8 +40,8 @@ bool Engine::Impl::is_believed(const Passage& p) noexcept {
     if (p.now - claim.since < consistent_for) return false;
     const bool has_earned = answer == Trust::Answer::contested && !p.link.policy.learns_first;
     const bool is_new = claim.last_heard - claim.since < consistent_for;
-    if ((has_earned || is_new) && holder.rank != Rank::verified)
-        report_conflict({p.frame.system(), holder.link, p.link.id, has_earned});
+    if ((has_earned || is_new) && holder->rank != Rank::verified)
+        report_conflict({p.frame.system(), holder->link, p.link.id, has_earned});
     return has_earned;
 }
 

@@ -53,12 +53,13 @@ public:
     // The autopilot of a vehicle: component 1 of any system but 255, which is a ground station by convention.
     [[nodiscard]] static bool is_autopilot(Pair pair) noexcept { return (pair & 0xff) == 1 && pair >> 8 != 255; }
 
-    // `holder`: the link that has the source, unless the answer is `believed`. It may have gone.
-    [[nodiscard]] Answer judge(Pair source, const Claimant& by, MonoTime now, Claimant& holder) const noexcept {
+    // `holder`: the link that has the source, unless the answer is `believed`. It may have
+    // gone. Valid until the next change of this object.
+    [[nodiscard]] Answer judge(Pair source, const Claimant& by, MonoTime now, const Claimant*& holder) const noexcept {
         const auto is_held = [&](const Holder& other, Nanoseconds time) {
             if (!has(other, time, by, now)) [[likely]]
                 return false;
-            holder = other.by;
+            holder = &other.by;
             return true;
         };
         if (by.rank < Rank::verified && has_verified_ && is_held(verified_[source], route_timeout_))

@@ -11,10 +11,10 @@ namespace mavloom::view {
 
 namespace {
 
-constexpr int least_height_with_plot = 12, least_plot = 6, max_plot = 14;
-constexpr int least_width_with_counts = 70;
+constexpr int min_height_with_plot = 12, min_plot = 6, max_plot = 14;
+constexpr int min_width_with_counts = 70;
 constexpr int names_end = 30, then_width = 24;
-constexpr int least_spark = 6, max_spark = 16;
+constexpr int min_spark = 6, max_spark = 16;
 constexpr std::size_t spark_points = 256;
 
 using message::MessageView;
@@ -46,7 +46,7 @@ std::vector<Point> points_of(const FieldLine& line, const Snapshot& shown, const
 // The newest part of a plot is at its right end, so the value covers the oldest part if it needs the room.
 void draw_field(Grid& grid, int y, const FieldLine& line, const Snapshot& shown, const Row& row, const Row* then) {
     const int width = grid.size().width, names = std::min(names_end, width * 2 / 5);
-    const int spark_width = std::clamp(width / 6, least_spark, max_spark), spark = width - 1 - spark_width;
+    const int spark_width = std::clamp(width / 6, min_spark, max_spark), spark = width - 1 - spark_width;
     draw_spark(grid, spark, y, spark_width, points_of(line, shown, row, spark_points), shown.now.wall);
     grid.put(1, y, label_of(line, row, *shown.dialect), Ink::dim, names - 1);
     const auto value = value_of(line, row, *shown.dialect);
@@ -84,13 +84,13 @@ std::vector<FieldLine> fields_of(const Row& row) {
 
 int field_lines(int y, int end) noexcept {
     const int height = end - y;
-    return height < least_height_with_plot ? height : height - std::clamp(height * 2 / 5, least_plot, max_plot);
+    return height < min_height_with_plot ? height : height - std::clamp(height * 2 / 5, min_plot, max_plot);
 }
 
 void draw_message_head(Grid& grid, int y, const Snapshot& shown, const Row& row) {
     const auto& its = row.its.traffic;
     auto rate = row.is_silent ? "silent" : hz_text(row.hz) + " Hz";
-    if (grid.size().width >= least_width_with_counts)
+    if (grid.size().width >= min_width_with_counts)
         rate += fmt::format(", {} frames, {} ago", count_text(its.count), time_text(shown.now.mono - row.its.heard));
     const int end = grid.size().width - 1 - width_of(rate) - 1;
     const auto x = grid.put(1, y, name_of(row.its), Ink::accent, end);

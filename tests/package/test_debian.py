@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The Debian packages that `./run package` builds: dpkg installs, upgrades and purges them in a clean root
-made by debootstrap. With `.ci/run --full`, lintian reads them."""
+"""Checks the Debian packages that `./run package` builds. dpkg installs, upgrades and purges them in a clean root,
+which debootstrap makes. With `.ci/run --full`, lintian reads them too."""
 import os
 import pathlib
 import platform

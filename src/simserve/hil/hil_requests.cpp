@@ -110,10 +110,10 @@ Report blow(HilSimulator& simulator, const Json& request) {
 }
 
 Report load(HilSimulator& simulator, const Json& request) {
-    constexpr double least_kg = 0.05, max_kg = 500;
+    constexpr double min_kg = 0.05, max_kg = 500;
     const auto mass = number_at(request, "kg").value_or(std::nullopt);
-    if (!mass || !(*mass >= least_kg && *mass <= max_kg))
-        return failed(fmt::format("mass takes kilograms, {} to {}", least_kg, max_kg));
+    if (!mass || !(*mass >= min_kg && *mass <= max_kg))
+        return failed(fmt::format("mass takes kilograms, {} to {}", min_kg, max_kg));
     return for_each_pair(simulator, request, [&](hil::Pair& pair) { pair.set_mass(*mass); });
 }
 

@@ -139,7 +139,7 @@ def test_corruption(spawn, kind):
             return sum(map(len, path.sent)) - link["bytes_in"] - link["junk_bytes"]
         path.send()
         harness.wait_for(lambda: (link := path.link("vehicle")) and undecided(link) <= LONGEST_FRAME, what="the frames")
-        # The rest of a damaged frame may look like the start of a long one. Only more bytes show that it is not.
+        # The rest of a damaged frame may look like the start of a long frame, until more bytes arrive.
         path.router.ask("fault", name="vehicle", **{"in": "off"})
         path.send(10)
         got, link = path.arrived(lambda link: undecided(link) == 0)

@@ -54,7 +54,7 @@ def shared(name, suffix="") -> pathlib.Path:
 
 
 def is_there_again(file):
-    """Whether a file that was shortened has content. The writer removes it before it makes the new one."""
+    """Whether the writer has created the file again. It removes a shortened file first, so there may be none."""
     with contextlib.suppress(FileNotFoundError):
         return file.stat().st_size > 0
     return False

@@ -306,8 +306,8 @@ def test_who_sends_from_this_machine_is_own_unless_trusted_is_false(here, machin
 
 
 def test_a_program_of_this_machine_is_heard_at_an_address_without_a_broadcast_address(here, ends):
-    """As after a plain `ip addr add`. The C library then returns the address itself as that of broadcasts."""
-    netns.ip("-n", here.name, "addr", "add", "10.78.0.1/24", "dev", here.interface)
+    """After `ip addr add` without `brd`, getifaddrs() returns the address itself as its broadcast address."""
+    netns.ip("-n", here.name, "addr", "replace", "10.78.0.1/24", "dev", here.interface)
     router = here.router(f"udpin://0.0.0.0:{PORT}")
     beat(here, (ends.enter_context(UdpEnd(("10.78.0.1", PORT), sock=here.socket())), VEHICLE))
     assert [link["rank"] for link in router.links()] == ["own"]

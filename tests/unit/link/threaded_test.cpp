@@ -75,6 +75,12 @@ protected:
         EXPECT_FALSE(node.recorder.ups.empty());
         return transport;
     }
+    // Numbers 2 and 3.
+    void join_page_and_far_client(Played& transport) {
+        transport.mailbox->join({.number = 2, .address = net::Address::parse("127.0.0.1", 998), .is_foreign = true});
+        transport.mailbox->join({.number = 3, .address = net::Address::parse("198.51.100.1", 998)});
+        node.poll();
+    }
     [[nodiscard]] const LinkCounters& counters() const { return node.counters(node.recorder.ups.at(0).first); }
 
     Node node;
@@ -247,9 +253,7 @@ TEST_F(Threaded, ClientsBeyondTheLimitAreRefusedUnlessOthersAreSilent) {
 
 TEST_F(Threaded, RanksFollowTheAddressAndForeignClientsAreStrangers) {
     Played& transport = connected("wsin://127.0.0.1:14550");
-    transport.mailbox->join({.number = 2, .address = net::Address::parse("127.0.0.1", 998), .is_foreign = true});
-    transport.mailbox->join({.number = 3, .address = net::Address::parse("198.51.100.1", 998)});
-    node.poll();
+    join_page_and_far_client(transport);
     ASSERT_THAT(node.recorder.ups, SizeIs(3));
     EXPECT_EQ(node.links->rank(node.recorder.ups[0].first), Rank::own);
     EXPECT_EQ(node.links->rank(node.recorder.ups[1].first), Rank::stranger);
@@ -262,15 +266,13 @@ TEST_F(Threaded, TrustedDecidesForAllClients) {
                                         {"wsin://127.0.0.1:14551?trusted=false", Rank::stranger}}) {
         node.recorder.ups.clear();
         Played& transport = connected(url);
-        transport.mailbox->join({.number = 2, .address = net::Address::parse("127.0.0.1", 998), .is_foreign = true});
-        transport.mailbox->join({.number = 3, .address = net::Address::parse("198.51.100.1", 998)});
-        node.poll();
+        join_page_and_far_client(transport);
         ASSERT_THAT(node.recorder.ups, SizeIs(3));
         for (const auto& up : node.recorder.ups) EXPECT_EQ(node.links->rank(up.first), expected) << url;
     }
 }
 
-TEST_F(Threaded, AServerThatTheUserNamedIsOwn) {
+TEST_F(Threaded, TheLinkOfAWsoutEndpointIsOwn) {
     connected("wsout://192.0.2.1:14550");
     EXPECT_EQ(node.links->rank(node.recorder.ups.at(0).first), Rank::own);
 }

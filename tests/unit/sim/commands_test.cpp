@@ -469,7 +469,7 @@ TEST(MaintenanceCommands, RebootKeepsParametersAndStartsTheClockAgain) {
     EXPECT_EQ(bench.rig.sink.frames.back().frame().source().system.value, 9);
 }
 
-TEST(MaintenanceCommands, MessageRatesDoNotChangeTheMotionDuringAReboot) {
+TEST(MaintenanceCommands, RebootMotionDoesNotDependOnMessageRates) {
     const auto north_after = [](double attitude_hz) {
         Rig rig({.ready_after = 0ms}, {.rates = {{msg::Attitude::id, attitude_hz}}});
         rig.run(0.5993);
