@@ -41,6 +41,11 @@ public:
         return at == peers_.end() ? nullptr : at->get();
     }
 
+    template <class F>
+    void each(F&& f) const {
+        for (const auto& peer : peers_) f(*peer);
+    }
+
     // Makes the peer a link, and notifies the handler.
     Peer& add(std::unique_ptr<Peer> peer, Rank rank) {
         assert(!is_full());

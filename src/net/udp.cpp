@@ -163,7 +163,8 @@ SetupResult<UdpSocket> UdpSocket::open(const Address& local, const UdpOptions& o
     set_option(fd, SOL_SOCKET, SO_TIMESTAMPNS, 1);
     // Without this option the kernel hides closed ports (ICMP). It also reports datagrams as sent that a full device
     // queue dropped.
-    set_option(fd, local.is_v6() ? int{IPPROTO_IPV6} : int{IPPROTO_IP}, local.is_v6() ? IPV6_RECVERR : IP_RECVERR, 1);
+    set_option(fd, IPPROTO_IP, IP_RECVERR, 1);  // for IPv4 peers, also of an IPv6 socket
+    if (local.is_v6()) set_option(fd, IPPROTO_IPV6, IPV6_RECVERR, 1);
     socket.receive_buffer_bytes_ = largest_receive_buffer(fd, options.receive_buffer_bytes);
     if (options.broadcast) set_option(fd, SOL_SOCKET, SO_BROADCAST, 1);
     if (options.group || options.reuse_address) set_option(fd, SOL_SOCKET, SO_REUSEADDR, 1);

@@ -149,14 +149,14 @@ class End:
 
 
 class UdpEnd(End):
-    """On loopback, or with `sock`, an unbound socket of another machine, on all addresses there."""
+    """On loopback, or with `sock`, an unbound socket of another machine, on all addresses there or on `host`."""
 
-    def __init__(self, target=None, label=None, port=0, sock=None):
+    def __init__(self, target=None, label=None, port=0, sock=None, host="0.0.0.0"):
         super().__init__(label)
         self.target = target
         self.sock = sock or socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         harness.enlarge_receive_buffer(self.sock)
-        self.sock.bind(("0.0.0.0" if sock else "127.0.0.1", port))
+        self.sock.bind((host if sock else "127.0.0.1", port))
         self.port = self.sock.getsockname()[1]
 
     def fileno(self):

@@ -112,8 +112,8 @@ public:
     // Reads the waiting datagrams, at most one batch. Returns would_block if there are none.
     [[nodiscard]] IoResult<std::size_t> receive(ReceiveBatch& batch, std::size_t most = ReceiveBatch::slots) noexcept;
     // Sends batch[first...] and returns how many datagrams went out. After an error nothing was sent, and the error
-    // concerns batch[first]. The exception is `refused`: it may concern any earlier datagram whose port was closed
-    // (ICMP). It is reported once.
+    // concerns batch[first]. The exceptions are `refused` and `unreachable`: they may concern any earlier datagram
+    // (ICMP). They are then reported once.
     [[nodiscard]] IoResult<std::size_t> send(SendBatch& batch, std::size_t first) noexcept;
 
     // Removes and returns the oldest queued ICMP error about an earlier datagram. Returns nothing if there is none.

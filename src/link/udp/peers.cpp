@@ -7,7 +7,10 @@
 
 namespace mavloom::link::detail {
 
-UdpPeers::~UdpPeers() { core_.loop().cancel_timer(expiry_); }
+UdpPeers::~UdpPeers() {
+    core_.loop().unwatch(watch_);
+    core_.loop().cancel_timer(expiry_);
+}
 
 bool UdpPeers::close(LinkId link) {
     UdpPeer* const peer = peers_.find(link);
@@ -81,9 +84,32 @@ UdpPeer* UdpPeers::newcomer(UdpPort& port, const net::Datagram& datagram) {
     // A stranger may have forged its address, so it gets little before it repeats itself.
     if (rank == Rank::stranger && !verifies()) peer->give_allowance();
     else note_confirmed(*peer);
+    if (!datagram.from->is_loopback()) watch_neighbours();
     port.peers().add(*datagram.from, *peer);
     if (!expiry_.valid()) expiry_ = core_.loop().start_timer(core_.now() + idle_, *this);
     return &peers_.add(std::move(peer), rank);
+}
+
+// If the kernel allows no watch, frames to hosts that are gone delay those to others.
+void UdpPeers::watch_neighbours() {
+    if (neighbours_) return;
+    auto opened = net::NeighbourWatch::open();
+    if (!opened) return;
+    auto watch = core_.loop().watch(opened->fd(), true, false, *this);
+    if (!watch) return;
+    watch_ = *watch;
+    neighbours_ = std::move(*opened);
+}
+
+// The kernel keeps the frames for a host that it looks for, in the socket's send buffer. Those for two such hosts fill
+// it, so that all other peers wait.
+void UdpPeers::on_io(net::IoEvents) {
+    for (const auto& change : neighbours_.read())
+        peers_.each([&](UdpPeer& peer) {
+            if (peer.address.unmapped().with_port(0) != change.host) return;
+            if (change.answers) peer.note_found(core_.now());
+            else peer.note_missing();
+        });
 }
 
 bool UdpPeers::verifies() const { return endpoint_.signature && endpoint_.signature->verifies(); }

@@ -8,10 +8,11 @@
 
 #include "link/peer_list.hpp"
 #include "link/udp/udp.hpp"
+#include "mavloom/net/neighbours.hpp"
 
 namespace mavloom::link::detail {
 
-class UdpPeers final : public net::TimerHandler {
+class UdpPeers final : public net::IoHandler, public net::TimerHandler {
 public:
     // The endpoint that owns the sockets.
     class Owner : public UdpOwner {
@@ -52,9 +53,11 @@ public:
     void note_confirmed(const UdpPeer& peer);
     [[nodiscard]] std::size_t queued_bytes() const { return peers_.queued_bytes(); }
     [[nodiscard]] bool empty() const noexcept { return peers_.empty(); }
+    void on_io(net::IoEvents events) override;
     void on_timer(MonoTime now) override;
 
 private:
+    void watch_neighbours();
     UdpPeer* newcomer(UdpPort& port, const net::Datagram& datagram);
     [[nodiscard]] bool is_own_port(const UdpPort& port, std::uint16_t number) const;
     [[nodiscard]] bool may_be_peer(const UdpPort& port, const net::Address& sender);
@@ -73,6 +76,8 @@ private:
     PeerList<UdpPeer> peers_;
     std::size_t confirmed_ = 0;  // peers
     net::TimerId expiry_;
+    net::NeighbourWatch neighbours_;  // opened for the first peer on a network
+    net::WatchId watch_;
 };
 
 }  // namespace mavloom::link::detail

@@ -32,6 +32,7 @@ bool UdpPeer::note_heard(MonoTime now, std::size_t bytes) noexcept {
     ++datagrams;
     listens_ = true;
     end_refusal();
+    note_found(now);
     return confirms;
 }
 
@@ -47,6 +48,13 @@ void UdpPeer::note_refusal(MonoTime now) noexcept {
     begin_refusal(now + refusal_holds);
     counters.refused.add(std::exchange(unsettled_frames_, 0));
     unsettled_bytes_ = 0;
+}
+
+void UdpPeer::note_found(MonoTime now) {
+    if (!std::exchange(is_missing_, false)) return;
+    searches_ = Pace(search_interval, 1);
+    counters.queue_age.add(queue.expire(now));
+    if (!queue.empty() && !std::exchange(is_scheduled, true)) schedule();
 }
 
 void UdpPeer::count_sent(std::uint32_t frames, std::uint32_t bytes, MonoTime now) noexcept {
@@ -193,6 +201,10 @@ void UdpPort::flush() {
     parts_.clear();
     for (std::size_t i = 0; i < waiting_.size() && !blocked_; ++i) {
         UdpPeer& peer = *waiting_[i];
+        if (!peer.may_send(core_.now())) {
+            peer.counters.queue_age.add(peer.queue.expire(core_.now()));
+            continue;
+        }
         auto position = peer.queue.front();
         while (!peer.held) {
             if ((batch.full() || batch.room().size() < min_pieces) && (!submit() || peer.held)) break;
@@ -201,11 +213,12 @@ void UdpPort::flush() {
             batch.add(&peer.address, gathered.pieces);
             parts_.push_back({&peer, position, static_cast<std::uint32_t>(gathered.blocks),
                               static_cast<std::uint32_t>(gathered.bytes)});
+            if (peer.is_missing()) break;
         }
     }
     if (!blocked_) submit();
     std::erase_if(waiting_, [](UdpPeer* peer) {
-        peer->is_scheduled = !peer->queue.empty();
+        peer->is_scheduled = !peer->queue.empty() && !peer->is_missing();
         peer->held = peer->held && peer->is_scheduled;
         return !peer->is_scheduled;
     });
@@ -248,8 +261,9 @@ void UdpPort::account(const Part& part) noexcept {
 void UdpPort::recover(std::size_t& index, net::IoError error, int& refusals) {
     if (error == net::IoError::would_block) return block();
     if (error == net::IoError::no_buffers) return hold(index);
-    if (error == net::IoError::refused) take_failures();
-    if (error == net::IoError::refused && ++refusals < max_refusals) return;
+    const bool may_be_of_another = error == net::IoError::refused || error == net::IoError::unreachable;
+    if (may_be_of_another) take_failures();
+    if (may_be_of_another && ++refusals < max_refusals) return;
     refusals = 0;
     counters_.send_errors.add();
     if (const Part& part = parts_[index]; part.peer != nullptr) {

@@ -11,6 +11,7 @@
 #include "link/core/read_budget.hpp"
 #include "link/peer_policy.hpp"
 #include "link/udp/peer_table.hpp"
+#include "mavloom/base/pace.hpp"
 #include "mavloom/net/port_holder.hpp"
 #include "mavloom/net/udp.hpp"
 #include "mavloom/wire/datagram_parser.hpp"
@@ -44,6 +45,12 @@ struct UdpPeer final : Link {
     // Notes that the far side's port is closed. ICMP does not report every datagram sent to a closed port, so frames
     // sent in the next second also count as refused.
     void note_refusal(MonoTime now) noexcept;
+    // Notes that the kernel finds the far side's host no more, and that it does again. Meanwhile, frames wait in the
+    // queue, and `may_send` allows a datagram every 4 s, for which the kernel looks for the host.
+    void note_missing() noexcept { is_missing_ = true; }
+    void note_found(MonoTime now);
+    [[nodiscard]] bool is_missing() const noexcept { return is_missing_; }
+    [[nodiscard]] bool may_send(MonoTime now) noexcept { return !is_missing_ || searches_.take(now); }
     // Changes the far side's address. Refusals from the old address are forgotten.
     void move_to(const net::Address& where) noexcept;
     // Counts sent frames at once only if the peer was heard since its last refusal. Otherwise `settle` counts them.
@@ -57,6 +64,9 @@ private:
     static constexpr std::chrono::milliseconds confirmed_after{500};
     static constexpr std::int64_t answers_per_byte = 3;  // to a peer that has not confirmed its address, as in QUIC
     bool listens_ = false;                               // the peer was heard, and has not refused anything since
+    bool is_missing_ = false;
+    static constexpr std::chrono::seconds search_interval{4};  // the kernel looks for a host for 3 s
+    Pace searches_{search_interval, 1};
     std::uint32_t unsettled_frames_ = 0, unsettled_bytes_ = 0;
 };
 

@@ -415,6 +415,71 @@ def test_what_a_cable_loses_is_the_links_own_loss(machines, spawn_in):
         assert source["lost"] == 299  # the first and the last are beyond its sight
 
 
+class Guest(UdpEnd):
+    """A station with an address of its own on the machine `there`, with which it leaves the network."""
+
+    def __init__(self, there, number, target):
+        self.there, self.is_v6 = there, ":" in target[0]
+        self.host = f"fd77::{number}" if self.is_v6 else f"10.77.0.{number}"
+        self.address("add", *(["nodad"] if self.is_v6 else []))
+        super().__init__(target, sock=there.socket(socket.AF_INET6 if self.is_v6 else socket.AF_INET), host=self.host)
+        self.send(routers.heartbeat((255, number)))
+
+    def address(self, change, *flags):
+        netns.ip("-n", self.there.name, "addr", change, f"{self.host}/{64 if self.is_v6 else 24}", *flags, "dev",
+                 self.there.interface)
+
+    def is_of(self, link):
+        return self.host in link["link"]
+
+
+def find_neighbours_fast(machine, family):
+    """A host that is gone is missed after 1 to 2 s, not after 20 to 50; the kernel looks for it for 3 s, as usual."""
+    for key, value in {"base_reachable_time_ms": 200, "delay_first_probe_time": 0, "ucast_solicit": 1}.items():
+        on(machine, "sh", "-c", f"echo {value} > /proc/sys/net/{family}/neigh/{machine.interface}/{key}")
+
+
+@pytest.mark.parametrize("bind, family", [("0.0.0.0", "ipv4"), ("[::]", "ipv4"), ("[::]", "ipv6")])
+def test_stations_that_left_the_network_do_not_delay_the_others(machines, spawn_in, bind, family):
+    """While the kernel looks for a host, it keeps the frames for it in the socket's send buffer; those for two hosts
+    fill it."""
+    here, there = machines
+    find_neighbours_fast(here, family)
+    # 2 s is more than a busy machine needs, and less than a full buffer would last.
+    router = Router(spawn_in(here), f"udpin://127.0.0.1:{PORT}?name=in",
+                    f"udpin://{bind}:{PORT + 1}?trusted=true&queue_age=2s&idle=600&name=far")
+    target = (here.host6 if family == "ipv6" else here.host, PORT + 1)
+    stays, *leaving = [Guest(there, number, target) for number in (11, 12, 13, 14)]
+    with machine_end(here, ("127.0.0.1", PORT)) as vehicle, stays, leaving[0], leaving[1], leaving[2]:
+        vehicle.send(routers.heartbeat())
+        router.wait_links(5)
+        for station in leaving:
+            station.address("del")
+        sent = []
+
+        def fly(count):
+            for _ in range(count):
+                sent.append(routers.attitude())
+                vehicle.send(sent[-1])
+                time.sleep(0.005)  # a rate; no verdict hangs on it
+
+        def counts(name):
+            return [router.link_of(station)[name] for station in leaving]
+
+        def all_are_missed():
+            fly(50)
+            return all(counts("queue_age"))
+        harness.wait_for(all_are_missed, what="frames for all that are gone to wait")
+        before = counts("frames_out")
+        fly(800)
+        assert stays.until(sent[-1])[-len(sent) + 1:] == sent[:-1]
+        assert max(now - first for now, first in zip(counts("frames_out"), before)) < 100
+
+        for station in leaving:  # a station that is back may just listen
+            station.address("add", *(["nodad"] if family == "ipv6" else []))
+        harness.wait_for(lambda: fly(50) or sent[-1] in leaving[2].now(), what="a station that is back")
+
+
 class Narrow:
     """vehicle - router - narrow cable - station. The station calls (udpin, tcpin) or is called (the others)."""
 

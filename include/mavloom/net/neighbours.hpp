@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Reports when a host of this machine's own networks stops answering, or answers again. The kernel finds that out while
+// somebody sends to the host (ARP, neighbour discovery) and announces it (rtnetlink(7)); no privilege is needed. One
+// thread at a time; allocates only when opened.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "mavloom/base/bytes.hpp"
+#include "mavloom/base/result.hpp"
+#include "mavloom/net/address.hpp"
+#include "mavloom/net/fd.hpp"
+
+namespace mavloom::net {
+
+class NeighbourWatch {
+public:
+    struct Change {
+        Address host;  // port 0; a link-local IPv6 address has its interface as scope
+        bool answers = false;
+    };
+
+    NeighbourWatch() noexcept = default;
+    [[nodiscard]] static SetupResult<NeighbourWatch> open();
+
+    [[nodiscard]] int fd() const noexcept { return fd_.get(); }
+    [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(fd_); }
+    // Reads one announcement and returns the changes that it contains, often none. Valid until the next call. If the
+    // kernel's buffer was full, some changes are missing.
+    [[nodiscard]] std::span<const Change> read();
+
+    // The changes in a datagram of the kernel, for `read` and its tests.
+    static void parse(ByteView datagram, std::vector<Change>& changes);
+
+private:
+    Fd fd_;
+    std::vector<std::uint8_t> buffer_;
+    std::vector<Change> changes_;
+};
+
+}  // namespace mavloom::net

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/net/neighbours.hpp"
+
+#include <linux/neighbour.h>
+#include <linux/netlink.h>
+#include <linux/rtnetlink.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+namespace mavloom::net {
+
+static constexpr std::size_t buffer_bytes = 16384;  // the kernel writes less at once
+static constexpr std::uint16_t valid =
+    NUD_PERMANENT | NUD_NOARP | NUD_REACHABLE | NUD_PROBE | NUD_STALE | NUD_DELAY;  // NUD_VALID of the kernel
+
+SetupResult<NeighbourWatch> NeighbourWatch::open() {
+    NeighbourWatch watch;
+    watch.fd_ = Fd(::socket(AF_NETLINK, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, NETLINK_ROUTE));
+    sockaddr_nl local{};
+    local.nl_family = AF_NETLINK;
+    local.nl_groups = RTMGRP_NEIGH;
+    if (!watch.fd_ || ::bind(watch.fd(), reinterpret_cast<const sockaddr*>(&local), sizeof local) != 0)
+        return system_error("cannot watch the table of neighbours", errno);
+    watch.buffer_.resize(buffer_bytes);
+    return watch;
+}
+
+std::span<const NeighbourWatch::Change> NeighbourWatch::read() {
+    changes_.clear();
+    sockaddr_nl from{};
+    socklen_t length = sizeof from;
+    const ssize_t size =
+        ::recvfrom(fd(), buffer_.data(), buffer_.size(), 0, reinterpret_cast<sockaddr*>(&from), &length);
+    const bool is_of_kernel = from.nl_pid == 0;
+    if (size > 0 && is_of_kernel) parse(ByteView(buffer_).first(static_cast<std::size_t>(size)), changes_);
+    return changes_;
+}
+
+namespace {
+
+template <class T>
+std::optional<T> begin_of(ByteView bytes) noexcept {
+    T value;
+    if (bytes.size() < sizeof value) return std::nullopt;
+    std::memcpy(&value, bytes.data(), sizeof value);
+    return value;
+}
+
+// The rest behind a part of that length. Parts begin at multiples of 4 bytes.
+ByteView behind(ByteView bytes, std::size_t length) noexcept {
+    return bytes.subspan(std::min(bytes.size(), NLMSG_ALIGN(length)));
+}
+
+std::optional<Address> address_of(const ndmsg& about, ByteView bytes) noexcept {
+    sockaddr_in v4{};
+    sockaddr_in6 v6{};
+    if (about.ndm_family == AF_INET && bytes.size() == sizeof v4.sin_addr) {
+        v4.sin_family = AF_INET;
+        std::memcpy(&v4.sin_addr, bytes.data(), bytes.size());
+        return Address::from_sockaddr(reinterpret_cast<const sockaddr*>(&v4), sizeof v4);
+    }
+    if (about.ndm_family != AF_INET6 || bytes.size() != sizeof v6.sin6_addr) return std::nullopt;
+    v6.sin6_family = AF_INET6;
+    std::memcpy(&v6.sin6_addr, bytes.data(), bytes.size());
+    if (IN6_IS_ADDR_LINKLOCAL(&v6.sin6_addr)) v6.sin6_scope_id = static_cast<std::uint32_t>(about.ndm_ifindex);
+    return Address::from_sockaddr(reinterpret_cast<const sockaddr*>(&v6), sizeof v6);
+}
+
+// `attributes` follow the ndmsg; NDA_DST has the address.
+std::optional<Address> host_of(const ndmsg& about, ByteView attributes) noexcept {
+    while (const auto header = begin_of<rtattr>(attributes)) {
+        if (header->rta_len < sizeof(rtattr) || header->rta_len > attributes.size()) break;
+        if (header->rta_type == NDA_DST)
+            return address_of(about, attributes.first(header->rta_len).subspan(sizeof(rtattr)));
+        attributes = behind(attributes, header->rta_len);
+    }
+    return std::nullopt;
+}
+
+std::optional<NeighbourWatch::Change> change_of(ByteView body) noexcept {
+    const auto about = begin_of<ndmsg>(body);
+    if (!about || (about->ndm_state & (valid | NUD_FAILED)) == 0) return std::nullopt;
+    const auto host = host_of(*about, behind(body, sizeof(ndmsg)));
+    if (!host) return std::nullopt;
+    return NeighbourWatch::Change{*host, (about->ndm_state & valid) != 0};
+}
+
+}  // namespace
+
+void NeighbourWatch::parse(ByteView datagram, std::vector<Change>& changes) {
+    while (const auto header = begin_of<nlmsghdr>(datagram)) {
+        if (header->nlmsg_len < sizeof(nlmsghdr) || header->nlmsg_len > datagram.size()) break;
+        if (header->nlmsg_type == RTM_NEWNEIGH) {
+            const auto change = change_of(datagram.first(header->nlmsg_len).subspan(sizeof(nlmsghdr)));
+            if (change) changes.push_back(*change);
+        }
+        datagram = behind(datagram, header->nlmsg_len);
+    }
+}
+
+}  // namespace mavloom::net
