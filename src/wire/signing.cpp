@@ -5,6 +5,7 @@
 #include <sodium.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <optional>
 #include <string_view>
@@ -69,9 +70,15 @@ std::uint64_t SigningKey::fingerprint() const noexcept {
 
 SigningKey::~SigningKey() { sodium_memzero(bytes_.data(), bytes_.size()); }
 
+static SetupError with_remedy(SetupError error, const std::filesystem::path& file) {
+    if (error.sys_errno == ENOENT && !file.empty())
+        error.text += fmt::format("; copy the other side's key there, or make one: mavloom key new {}", file.string());
+    return error;
+}
+
 SetupResult<SigningKey> SigningKey::load(const std::filesystem::path& file) {
     auto text = read_secret_file(file, "key file");
-    if (!text) return tl::unexpected(std::move(text.error()));
+    if (!text) return tl::unexpected(with_remedy(std::move(text.error()), file));
     const auto key = parse_hex(*text);
     sodium_memzero(text->data(), text->size());
     if (key) return SigningKey(*key);

@@ -81,6 +81,7 @@ const std::vector<Layout>& layouts() {
         {"link",
          {{"LINK", "link", Form::text},
           {"STATE", "up", Form::up},
+          {"RANK", "rank", Form::text, 2},
           {"IN", "frames_in"},
           {"OUT", "frames_out"},
           {"BYTES IN", "bytes_in", Form::bytes, 3},

@@ -33,10 +33,10 @@ def lines(terminal):
 
 def test_the_links_are_a_table_on_a_terminal(ctl, names):
     shown = lines(ctl(names[0], "links", columns=100))
-    assert re.split(" +", shown[0]) == ["LINK", "STATE", "IN", "OUT", "BYTES", "IN", "BYTES", "OUT", "LOST",
-                                            "QUEUE"], shown
-    assert any(re.match(r"tablet +up +0 +\d+ ", line) for line in shown), shown
-    assert any(re.match(r"udpin://127\.0\.0\.1:\d+#127\.0\.0\.1:\d+ +up +\d+ +0 ", line) for line in shown), shown
+    assert re.split(" +", shown[0]) == ["LINK", "STATE", "RANK", "IN", "OUT", "BYTES", "IN", "BYTES", "OUT",
+                                            "LOST", "QUEUE"], shown
+    assert any(re.match(r"tablet +up +own +0 +\d+ ", line) for line in shown), shown
+    assert any(re.match(r"udpin://127\.0\.0\.1:\d+#127\.0\.0\.1:\d+ +up +own +\d+ +0 ", line) for line in shown), shown
 
 
 def test_a_heading_is_less_than_360_degrees(ctl, run, spawn, udp_port):
