@@ -158,14 +158,14 @@ bool Engine::Impl::is_heard_before(Passage& p, Verdict& verdict) noexcept {
         const Words heard = recent_.heard(p.recent);
         const bool again_here = has(heard, p.slot);
         const bool copy_in_group = age < echo_window && p.link.group != no_group && !again_here && came_by_group(p);
+        p.is_copy = age < echo_window && !again_here && !copy_in_group;
         if (copy_in_group || (age < options.dedup && any(heard, words_))) {
-            insert(heard, p.slot);
             if (!again_here) learn(p);
+            insert(heard, p.slot);
             verdict = Verdict::duplicate;
             return true;
         }
         // Does not add the link to `heard`: a second copy on this link must not look like a repetition.
-        p.is_copy = age < echo_window && !again_here;
         if (p.is_copy) return false;
     }
     remember(p, found);

@@ -68,7 +68,12 @@ public:
         if (is_held(own_[source >> 8], Engine::alive_for)) return Answer::refused;
         return is_held(strangers_[source >> 8], Engine::alive_for) ? Answer::contested : Answer::believed;
     }
-    // Call for each frame that is believed.
+    [[nodiscard]] bool has_autopilot(Pair source, Rank rank, MonoTime now) const noexcept {
+        assert(is_autopilot(source) && rank != Rank::stranger);
+        return rank == Rank::own ? own_[source >> 8].is_alive(Engine::alive_for, now)
+                                 : verified_[source].is_alive(route_timeout_, now);
+    }
+    // Call for each frame that is believed and no late copy.
     void note(Pair source, const Claimant& by, MonoTime now) noexcept {
         assert(by.link.value != 0);
         if (by.rank == Rank::verified) {
@@ -99,9 +104,12 @@ private:
             assert(by == from && "a link keeps its rank and its place");
             last = now;
         }
+        [[nodiscard]] bool is_alive(Nanoseconds time, MonoTime now) const noexcept {
+            return by.link.value != 0 && now - last < time;
+        }
     };
     [[nodiscard]] static bool has(const Holder& holder, Nanoseconds time, const Claimant& by, MonoTime now) noexcept {
-        return holder.by.link.value != 0 && now - holder.last < time && !holder.by.is_same_place(by);
+        return holder.is_alive(time, now) && !holder.by.is_same_place(by);
     }
 
     std::array<Holder, 256> own_{}, strangers_{};  // by system

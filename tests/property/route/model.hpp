@@ -90,6 +90,7 @@ public:
 
     Result route(std::uint32_t ingress, const Bytes& bytes, MonoTime now, bool is_repeated = false) {
         is_repeated_ = is_repeated;
+        copy_of_ = nullptr;
         const auto frame = wire::FrameView::unchecked(bytes);
         now_ = now;
         Result result;
@@ -208,12 +209,13 @@ private:
             const bool by_member = std::any_of(r->heard.begin(), r->heard.end(), [&](std::uint32_t id) {
                 return id != gone && id != ingress && is_same_place(link.policy, links_[id].policy);
             });
+            if (!by_member && !again && age < std::chrono::seconds{2}) copy_of_ = &*r;
             if ((by_member && !again && age < std::chrono::seconds{2}) || (age < options_.dedup && !r->heard.empty())) {
-                r->heard.insert(ingress);
                 if (!again) learn(ingress, frame);
+                r->heard.insert(ingress);
                 return Verdict::duplicate;
             }
-            if (age < std::chrono::seconds{2} && !again) {
+            if (copy_of_ != nullptr) {
                 remembered = &*r;
                 return decide_unless_private(ingress, frame, why, r->sent, r->heard);
             }
@@ -301,7 +303,18 @@ private:
         heard.known = true;
         heard.time = now_;
         ++heard.frames;
-        note_had(ingress, system, component);
+        if (!is_late(ingress, system, component)) note_had(ingress, system, component);
+    }
+
+    // The copy of an autopilot's frame that only lower ranks brought first, and the autopilot is not on this rank.
+    [[nodiscard]] bool is_late(std::uint32_t ingress, std::uint8_t system, std::uint8_t component) const {
+        const Rank rank = links_.at(ingress).policy.rank;
+        if (copy_of_ == nullptr || rank == Rank::stranger || !is_autopilot(system, component)) return false;
+        const auto had = had_.find({rank, system, component});
+        const Nanoseconds time = rank == Rank::own ? std::chrono::seconds{2} : options_.route_timeout;
+        return std::ranges::none_of(copy_of_->heard,
+                                    [&](std::uint32_t id) { return id != gone && links_.at(id).policy.rank >= rank; }) &&
+               (had == had_.end() || now_ - had->second.last >= time);
     }
 
     // Links of a group lead to the same place, but nobody knows that of the unverified peers of one endpoint.
@@ -519,7 +532,9 @@ private:
 
     Options options_;
     MonoTime now_{};
-    bool is_trusted_ = false, is_repeated_ = false;  // the frame being routed
+    // Of the frame being routed.
+    bool is_trusted_ = false, is_repeated_ = false;
+    const Recent* copy_of_ = nullptr;
     std::map<std::uint32_t, Link> links_;
     std::map<std::uint32_t, GroupMode> group_modes_;  // the first link of a group decides
     std::map<std::uint32_t, std::uint32_t> current_;  // of a `best` group

@@ -417,5 +417,24 @@ TEST(TwoRouters, InALoopPassEachFrameOnce) {
     EXPECT_THAT(here.command(3, gcs, vehicle), testing::Contains(testing::AnyOf(1, 2)));
 }
 
+// The vehicle's answers to a station go through the other router and come back on the second path, which this router
+// named: the vehicle is still on its own link.
+TEST_F(Trusting, AVehiclesFramesThatComeBackThroughAnotherRouterTakeItFromNobody) {
+    connect(stranger, own, stranger);  // the vehicle, the second path, the first path
+    for (std::uint32_t i = 0; i < 100; ++i) {
+        sut.hears(3, gcs);
+        sut.hears(1, vehicle);
+        const auto answer = test::make_frame("COMMAND_ACK", vehicle,
+                                             {{"progress", i}, {"target_system", 255}, {"target_component", 190}});
+        EXPECT_THAT(sut.pass(1, answer), ElementsAre(3));
+        sut.wait(1ms).pass(2, answer);
+        EXPECT_THAT(sut.command(3, gcs, vehicle), testing::Contains(1));
+        sut.wait(100ms);
+    }
+    EXPECT_EQ(sut.engine.counters().route_conflicts.value(), 0u);
+    sut.hears(2, vehicle);
+    EXPECT_THAT(sut.command(3, gcs, vehicle), ElementsAre(2)) << "that was no copy: it moved";
+}
+
 }  // namespace
 }  // namespace mavloom::route
