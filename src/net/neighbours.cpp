@@ -9,12 +9,13 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 
 namespace mavloom::net {
 
 static constexpr std::size_t buffer_bytes = 16384;  // the kernel writes less at once
-static constexpr std::uint16_t valid =
-    NUD_PERMANENT | NUD_NOARP | NUD_REACHABLE | NUD_PROBE | NUD_STALE | NUD_DELAY;  // NUD_VALID of the kernel
+// NUD_VALID of the kernel.
+static constexpr int valid = NUD_PERMANENT | NUD_NOARP | NUD_REACHABLE | NUD_PROBE | NUD_STALE | NUD_DELAY;
 
 SetupResult<NeighbourWatch> NeighbourWatch::open() {
     NeighbourWatch watch;
@@ -32,8 +33,8 @@ std::span<const NeighbourWatch::Change> NeighbourWatch::read() {
     changes_.clear();
     sockaddr_nl from{};
     socklen_t length = sizeof from;
-    const ssize_t size =
-        ::recvfrom(fd(), buffer_.data(), buffer_.size(), 0, reinterpret_cast<sockaddr*>(&from), &length);
+    const ssize_t size = ::recvfrom(fd(), buffer_.data(), buffer_.size(), 0, reinterpret_cast<sockaddr*>(&from),
+                                    &length);
     const bool is_of_kernel = from.nl_pid == 0;
     if (size > 0 && is_of_kernel) parse(ByteView(buffer_).first(static_cast<std::size_t>(size)), changes_);
     return changes_;
@@ -85,7 +86,8 @@ std::optional<NeighbourWatch::Change> change_of(ByteView body) noexcept {
     if (!about || (about->ndm_state & (valid | NUD_FAILED)) == 0) return std::nullopt;
     const auto host = host_of(*about, behind(body, sizeof(ndmsg)));
     if (!host) return std::nullopt;
-    return NeighbourWatch::Change{*host, (about->ndm_state & valid) != 0};
+    return NeighbourWatch::Change{*host, static_cast<std::uint32_t>(about->ndm_ifindex),
+                                  (about->ndm_state & valid) != 0};
 }
 
 }  // namespace

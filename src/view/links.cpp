@@ -42,7 +42,8 @@ void add_refused(std::vector<LinkLine>& lines, const observe::Hop& hop, const ob
     if (link.refused == 0) return;
     lines.push_back({.hop = &hop,
                      .link = &link,
-                     .note = fmt::format("{} refused: no program listened at its port", count_text(link.refused))});
+                     .note = fmt::format("{} refused: no program listened at its port, or its host was gone",
+                                         count_text(link.refused))});
 }
 
 std::vector<LinkLine> lines_of_hops(const std::vector<observe::Hop>& hops, int width) {

@@ -72,7 +72,7 @@ SigningKey::~SigningKey() { sodium_memzero(bytes_.data(), bytes_.size()); }
 
 static SetupError with_remedy(SetupError error, const std::filesystem::path& file) {
     if (error.sys_errno == ENOENT && !file.empty())
-        error.text += fmt::format("; copy the other side's key there, or make one: mavloom key new {}", file.string());
+        error.text += fmt::format("; copy the other side's key there, or make one: mavloom key new '{}'", file.string());
     return error;
 }
 

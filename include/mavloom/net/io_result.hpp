@@ -13,7 +13,7 @@ enum class IoError : std::uint8_t {
     would_block,  // nothing to read now, or no room to write
     // The peer of an earlier datagram has closed its port. This call did nothing; repeat it.
     refused,
-    unreachable,  // no route, or the host does not answer: also that of an earlier datagram, as for `refused`
+    unreachable,  // no route, or the host does not answer; may concern an earlier datagram, like `refused`
     no_buffers,   // the kernel is short of memory at the moment
     too_long,     // the datagram is longer than the path allows
     closed,       // the far side ended the stream, or the socket is not connected any more

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Reports when a host of this machine's own networks stops answering, or answers again. The kernel finds that out while
 // somebody sends to the host (ARP, neighbour discovery) and announces it (rtnetlink(7)); no privilege is needed. One
-// thread at a time; allocates only when opened.
+// thread at a time; allocates when opened, and for more changes at once than before.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,6 +20,7 @@ class NeighbourWatch {
 public:
     struct Change {
         Address host;  // port 0; a link-local IPv6 address has its interface as scope
+        std::uint32_t interface = 0;
         bool answers = false;
     };
 

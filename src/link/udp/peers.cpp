@@ -99,17 +99,28 @@ void UdpPeers::watch_neighbours() {
     if (!watch) return;
     watch_ = *watch;
     neighbours_ = std::move(*opened);
+    interface_ = net::index_of_zone(endpoint_.info.endpoint.options.iface);
 }
 
-// The kernel keeps the frames for a host that it looks for, in the socket's send buffer. Those for two such hosts fill
-// it, so that all other peers wait.
+// The kernel keeps the datagrams for a host that it looks for, in the socket's send buffer. Those for two such hosts
+// fill it, so that all other peers wait.
 void UdpPeers::on_io(net::IoEvents) {
-    for (const auto& change : neighbours_.read())
+    for (const auto& change : neighbours_.read()) {
+        if (interface_ != 0 && change.interface != interface_) continue;
         peers_.each([&](UdpPeer& peer) {
-            if (peer.address.unmapped().with_port(0) != change.host) return;
-            if (change.answers) peer.note_found(core_.now());
-            else peer.note_missing();
+            if (peer.address.unmapped().with_port(0) == change.host) note_host(peer, change.answers);
         });
+    }
+}
+
+void UdpPeers::note_host(UdpPeer& peer, bool answers) {
+    const bool was_missing = peer.is_missing(core_.now());
+    if (answers) peer.note_found();
+    else peer.note_missing(core_.now());
+    if (was_missing != answers) return;
+    core_.events.notice(endpoint_.info.id,
+                        fmt::format("{}: its host {}", peer.name,
+                                    answers ? "answers again" : "does not answer on its network; frames for it wait"));
 }
 
 bool UdpPeers::verifies() const { return endpoint_.signature && endpoint_.signature->verifies(); }

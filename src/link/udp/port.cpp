@@ -32,7 +32,6 @@ bool UdpPeer::note_heard(MonoTime now, std::size_t bytes) noexcept {
     ++datagrams;
     listens_ = true;
     end_refusal();
-    note_found(now);
     return confirms;
 }
 
@@ -50,11 +49,9 @@ void UdpPeer::note_refusal(MonoTime now) noexcept {
     unsettled_bytes_ = 0;
 }
 
-void UdpPeer::note_found(MonoTime now) {
-    if (!std::exchange(is_missing_, false)) return;
-    searches_ = Pace(search_interval, 1);
-    counters.queue_age.add(queue.expire(now));
-    if (!queue.empty() && !std::exchange(is_scheduled, true)) schedule();
+void UdpPeer::note_found() noexcept {
+    missing_until_ = {};
+    end_refusal();
 }
 
 void UdpPeer::count_sent(std::uint32_t frames, std::uint32_t bytes, MonoTime now) noexcept {
@@ -196,32 +193,33 @@ void UdpPort::expire(MonoTime now) {
 
 void UdpPort::flush() {
     if (blocked_) return;
-    net::SendBatch& batch = core_.send_batch;
-    batch.clear();
+    core_.send_batch.clear();
     parts_.clear();
-    for (std::size_t i = 0; i < waiting_.size() && !blocked_; ++i) {
-        UdpPeer& peer = *waiting_[i];
-        if (!peer.may_send(core_.now())) {
-            peer.counters.queue_age.add(peer.queue.expire(core_.now()));
-            continue;
-        }
-        auto position = peer.queue.front();
-        while (!peer.held) {
-            if ((batch.full() || batch.room().size() < min_pieces) && (!submit() || peer.held)) break;
-            const auto gathered = peer.queue.gather(position, mtu_bytes_, batch.room());
-            if (gathered.blocks == 0) break;
-            batch.add(&peer.address, gathered.pieces);
-            parts_.push_back({&peer, position, static_cast<std::uint32_t>(gathered.blocks),
-                              static_cast<std::uint32_t>(gathered.bytes)});
-            if (peer.is_missing()) break;
-        }
-    }
+    for (std::size_t i = 0; i < waiting_.size() && !blocked_; ++i) gather(*waiting_[i]);
     if (!blocked_) submit();
     std::erase_if(waiting_, [](UdpPeer* peer) {
-        peer->is_scheduled = !peer->queue.empty() && !peer->is_missing();
+        peer->is_scheduled = !peer->queue.empty();
         peer->held = peer->held && peer->is_scheduled;
         return !peer->is_scheduled;
     });
+    waits_ = !waiting_.empty();
+}
+
+// Adds the peer's queue to the batch: of a missing peer, one datagram now and then.
+void UdpPort::gather(UdpPeer& peer) {
+    const bool is_missing = peer.is_missing(core_.now());
+    if (is_missing && !peer.try_search(core_.now())) return;
+    net::SendBatch& batch = core_.send_batch;
+    auto position = peer.queue.front();
+    while (!peer.held) {
+        if ((batch.full() || batch.room().size() < min_pieces) && (!submit() || peer.held)) break;
+        const auto gathered = peer.queue.gather(position, mtu_bytes_, batch.room());
+        if (gathered.blocks == 0) break;
+        batch.add(&peer.address, gathered.pieces);
+        parts_.push_back(
+            {&peer, position, static_cast<std::uint32_t>(gathered.blocks), static_cast<std::uint32_t>(gathered.bytes)});
+        if (is_missing) break;
+    }
 }
 
 // Sends the batch. Returns false if the kernel accepts no more for now. Unsent datagrams stay queued.

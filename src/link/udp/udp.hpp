@@ -45,12 +45,12 @@ struct UdpPeer final : Link {
     // Notes that the far side's port is closed. ICMP does not report every datagram sent to a closed port, so frames
     // sent in the next second also count as refused.
     void note_refusal(MonoTime now) noexcept;
-    // Notes that the kernel finds the far side's host no more, and that it does again. Meanwhile, frames wait in the
-    // queue, and `may_send` allows a datagram every 4 s, for which the kernel looks for the host.
-    void note_missing() noexcept { is_missing_ = true; }
-    void note_found(MonoTime now);
-    [[nodiscard]] bool is_missing() const noexcept { return is_missing_; }
-    [[nodiscard]] bool may_send(MonoTime now) noexcept { return !is_missing_ || searches_.take(now); }
+    // Notes that the kernel no longer finds the far side's host, or finds it again. While it is missing, frames wait in
+    // the queue. For the one datagram that `try_search` allows each second, the kernel looks for the host.
+    void note_missing(MonoTime now) noexcept { missing_until_ = now + announced_within; }
+    void note_found() noexcept;
+    [[nodiscard]] bool is_missing(MonoTime now) const noexcept { return now < missing_until_; }
+    [[nodiscard]] bool try_search(MonoTime now) noexcept { return searches_.take(now); }
     // Changes the far side's address. Refusals from the old address are forgotten.
     void move_to(const net::Address& where) noexcept;
     // Counts sent frames at once only if the peer was heard since its last refusal. Otherwise `settle` counts them.
@@ -62,11 +62,13 @@ struct UdpPeer final : Link {
 private:
     static constexpr std::chrono::seconds refusal_holds{1};
     static constexpr std::chrono::milliseconds confirmed_after{500};
+    // While datagrams are sent, the kernel announces every 3 s that it does not find the host. After this time without
+    // an announcement, one that it finds the host may have been lost, or the route has changed.
+    static constexpr std::chrono::seconds announced_within{10};
     static constexpr std::int64_t answers_per_byte = 3;  // to a peer that has not confirmed its address, as in QUIC
     bool listens_ = false;                               // the peer was heard, and has not refused anything since
-    bool is_missing_ = false;
-    static constexpr std::chrono::seconds search_interval{4};  // the kernel looks for a host for 3 s
-    Pace searches_{search_interval, 1};
+    MonoTime missing_until_{};
+    Pace searches_{std::chrono::seconds(1), 1};
     std::uint32_t unsettled_frames_ = 0, unsettled_bytes_ = 0;
 };
 
@@ -121,7 +123,7 @@ public:
     void on_io(net::IoEvents events) override;
     void on_timer(MonoTime now) override;
     void flush() override;
-    [[nodiscard]] bool blocked() const override { return blocked_ || retry_.valid(); }
+    [[nodiscard]] bool blocked() const override { return blocked_ || retry_.valid() || waits_; }
     void expire(MonoTime now) override;
 
 private:
@@ -134,6 +136,7 @@ private:
     void receive();
     void receive(const net::ReceiveBatch& batch);
     void parse(UdpPeer& peer, ByteView bytes, WallTime time);
+    void gather(UdpPeer& peer);
     bool submit();
     void recover(std::size_t& index, net::IoError error, int& refusals);
     void account(const Part& part) noexcept;
@@ -153,6 +156,7 @@ private:
     std::vector<UdpPeer*> waiting_;  // peers that have frames queued
     std::vector<Part> parts_;
     bool blocked_ = false;  // the socket's send buffer is full
+    bool waits_ = false;    // the last flush has left peers that are held or missing
     std::vector<UdpPeer*> unsettled_;
     std::uint64_t unsettled_turn_ = 0;  // Core::turns() when frames were sent to the peers in `unsettled_`
     std::uint32_t last_drops_ = 0;

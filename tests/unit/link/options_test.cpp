@@ -187,7 +187,7 @@ TEST_F(LinksSigning, AMissingKeyIsAnError) {
     Node node;
     const auto error = node.refused("udpin://127.0.0.1:0?verify=/no/such/key");
     EXPECT_EQ(error.code, SetupCode::bad_input);
-    EXPECT_THAT(error.text, HasSubstr("mavloom key new /no/such/key"));
+    EXPECT_THAT(error.text, HasSubstr("mavloom key new '/no/such/key'"));
 }
 
 // A receiver keeps a time for each link id.

@@ -44,20 +44,22 @@ std::vector<std::string> changes_in(const std::string& datagram) {
     NeighbourWatch::parse({reinterpret_cast<const std::uint8_t*>(datagram.data()), datagram.size()}, changes);
     std::vector<std::string> texts;
     for (const auto& change : changes)
-        texts.push_back(change.host.text() + "/" + std::to_string(change.host.scope()) + (change.answers ? " up" : " gone"));
+        texts.push_back(change.host.text() + "/" + std::to_string(change.host.scope()) +
+                        (change.answers ? " up" : " gone") + " on " + std::to_string(change.interface));
     return texts;
 }
 
 TEST(Neighbours, HostsThatAreGoneAndHostsThatAnswer) {
-    EXPECT_THAT(changes_in(announcement(RTM_NEWNEIGH, AF_INET, NUD_FAILED, v4)), ElementsAre("10.77.0.12:0/0 gone"));
+    EXPECT_THAT(changes_in(announcement(RTM_NEWNEIGH, AF_INET, NUD_FAILED, v4)),
+                ElementsAre("10.77.0.12:0/0 gone on 7"));
     for (const int state : {NUD_REACHABLE, NUD_STALE, NUD_DELAY, NUD_PROBE, NUD_PERMANENT, NUD_NOARP})
-        EXPECT_THAT(changes_in(announcement(RTM_NEWNEIGH, AF_INET, state, v4)), ElementsAre("10.77.0.12:0/0 up"));
+        EXPECT_THAT(changes_in(announcement(RTM_NEWNEIGH, AF_INET, state, v4)), ElementsAre("10.77.0.12:0/0 up on 7"));
 }
 
 TEST(Neighbours, SeveralInOneDatagramAndLinkLocalOnesWithTheirInterface) {
     EXPECT_THAT(changes_in(announcement(RTM_NEWNEIGH, AF_INET, NUD_FAILED, v4) +
                            announcement(RTM_NEWNEIGH, AF_INET6, NUD_REACHABLE, v6)),
-                ElementsAre("10.77.0.12:0/0 gone", ::testing::EndsWith("/7 up")));
+                ElementsAre("10.77.0.12:0/0 gone on 7", ::testing::EndsWith("/7 up on 7")));
 }
 
 TEST(Neighbours, OtherAnnouncementsChangeNothing) {

@@ -104,6 +104,21 @@ TEST_F(Udp, LearnsOfAClosedPort) {
     await(now_open);
 }
 
+TEST_F(Udp, ADualStackSocketLearnsOfAClosedPortOfAnIpv4Host) {
+    auto both = UdpSocket::open(*Address::parse("::", 0), {});
+    if (!both) GTEST_SKIP() << both.error().text;
+    const Address closed = *Address::parse("::ffff:127.0.0.1", open().local().port());
+    std::vector<std::string> texts{"anybody?"};
+    send(*both, closed, texts);
+    pollfd wanted{both->fd(), 0, 0};
+    ASSERT_EQ(::poll(&wanted, 1, 5000), 1);
+    const auto failure = both->take_failure();
+    ASSERT_TRUE(failure.has_value());
+    EXPECT_EQ(failure->to, closed);
+    EXPECT_EQ(failure->error, IoError::refused);
+    EXPECT_TRUE(failure->reporter.is_loopback());
+}
+
 TEST_F(Udp, BothFamiliesReachADualStackSocket) {
     auto both = UdpSocket::open(*Address::parse("::", 0), {});
     if (!both) GTEST_SKIP() << both.error().text;

@@ -296,7 +296,7 @@ TEST_F(DrawTest, ALinkToAClosedPortStatesWhyItSendsNothing) {
     shown->hops = {{.name = "router", .links = {{.name = "tablet", .refused = 12}}}};
     type(U"3");
     EXPECT_THAT(draw(*shown, state, {80, 9}, Glyphs::ascii).text(),
-                HasSubstr("\n     12 refused: no program listened at its port\n"));
+                HasSubstr("\n     12 refused: no program listened at its port, or its host was gone\n"));
 }
 
 TEST_F(DrawTest, ATerminalOfFiveColumnsShowsTheFirstDigitsOfTheRate) {
