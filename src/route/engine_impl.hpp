@@ -125,7 +125,7 @@ private:
     [[nodiscard]] bool came_by_group(const Passage& p) noexcept;
     void remember(Passage& p, bool found) noexcept;
     void learn(Passage& p) noexcept;
-    [[nodiscard]] bool is_late(const Passage& p) noexcept;
+    [[nodiscard]] bool is_second_hand(const Passage& p) noexcept;
     // Whether the frame's route may be learned.
     [[nodiscard]] bool is_believed(const Passage& p) noexcept;
     void report_conflict(const RouteConflict& conflict) noexcept;

@@ -20,7 +20,7 @@ void Engine::Impl::learn(Passage& p) noexcept {
     routes_.learn(p.slot, p.source, p.now, change);
     count_routes(change);
     assert(has(routes_.links_of(p.source), p.slot));
-    if (is_late(p)) [[unlikely]]
+    if (is_second_hand(p)) [[unlikely]]
         return;
     trust_.note(p.source, p.link.claimant, p.now);
     if (!has_other(routes_.links_of(p.source), p.slot, words_)) [[likely]]
@@ -31,7 +31,7 @@ void Engine::Impl::learn(Passage& p) noexcept {
 
 // Whether only lower ranks brought the autopilot's frame first, and this rank does not have the autopilot. Such a copy
 // takes it from nobody: the vehicle's own frames may have come back through another router.
-bool Engine::Impl::is_late(const Passage& p) noexcept {
+bool Engine::Impl::is_second_hand(const Passage& p) noexcept {
     const Rank rank = p.link.policy.rank;
     if (!p.is_copy || rank == Rank::stranger || !Trust::is_autopilot(p.source)) return false;
     return !intersect(recent_.heard(p.recent), at_least(rank), words_) && !trust_.has_autopilot(p.source, rank, p.now);

@@ -73,7 +73,7 @@ public:
         return rank == Rank::own ? own_[source >> 8].is_alive(Engine::alive_for, now)
                                  : verified_[source].is_alive(route_timeout_, now);
     }
-    // Call for each frame that is believed and no late copy.
+    // Call for each frame that is believed, unless it came second-hand.
     void note(Pair source, const Claimant& by, MonoTime now) noexcept {
         assert(by.link.value != 0);
         if (by.rank == Rank::verified) {

@@ -303,11 +303,11 @@ private:
         heard.known = true;
         heard.time = now_;
         ++heard.frames;
-        if (!is_late(ingress, system, component)) note_had(ingress, system, component);
+        if (!is_second_hand(ingress, system, component)) note_had(ingress, system, component);
     }
 
     // The copy of an autopilot's frame that only lower ranks brought first, and the autopilot is not on this rank.
-    [[nodiscard]] bool is_late(std::uint32_t ingress, std::uint8_t system, std::uint8_t component) const {
+    [[nodiscard]] bool is_second_hand(std::uint32_t ingress, std::uint8_t system, std::uint8_t component) const {
         const Rank rank = links_.at(ingress).policy.rank;
         if (copy_of_ == nullptr || rank == Rank::stranger || !is_autopilot(system, component)) return false;
         const auto had = had_.find({rank, system, component});
