@@ -20,21 +20,22 @@ void Engine::Impl::learn(Passage& p) noexcept {
     routes_.learn(p.slot, p.source, p.now, change);
     count_routes(change);
     assert(has(routes_.links_of(p.source), p.slot));
-    if (is_second_hand(p)) [[unlikely]]
-        return;
-    trust_.note(p.source, p.link.claimant, p.now);
+    const bool takes = !is_second_hand(p);
+    if (takes) [[likely]]
+        trust_.note(p.source, p.link.claimant, p.now);
     if (!has_other(routes_.links_of(p.source), p.slot, words_)) [[likely]]
         return;
-    end_lower_routes(p);
+    if (takes) [[likely]]
+        end_lower_routes(p);
     watch_for_duplicate_ids(p);
 }
 
-// Whether only lower ranks brought the autopilot's frame first, and this rank does not have the autopilot. Such a copy
-// takes it from nobody: the vehicle's own frames may have come back through another router.
+// Whether only strangers brought the autopilot's frame before, and no own link has the autopilot. Such a copy takes it
+// from nobody: the vehicle's own frames may have come back through another router. On a verified link, frames of others
+// do not count as heard.
 bool Engine::Impl::is_second_hand(const Passage& p) noexcept {
-    const Rank rank = p.link.policy.rank;
-    if (!p.is_copy || rank == Rank::stranger || !Trust::is_autopilot(p.source)) return false;
-    return !intersect(recent_.heard(p.recent), at_least(rank), words_) && !trust_.has_autopilot(p.source, rank, p.now);
+    if (!p.is_copy || p.link.policy.rank != Rank::own || !Trust::is_autopilot(p.source)) return false;
+    return !intersect(recent_.heard(p.recent), trusted_.data(), words_) && !trust_.own_has(p.source, p.now);
 }
 
 bool Engine::Impl::is_believed(const Passage& p) noexcept {

@@ -68,10 +68,10 @@ public:
         if (is_held(own_[source >> 8], Engine::alive_for)) return Answer::refused;
         return is_held(strangers_[source >> 8], Engine::alive_for) ? Answer::contested : Answer::believed;
     }
-    [[nodiscard]] bool has_autopilot(Pair source, Rank rank, MonoTime now) const noexcept {
-        assert(is_autopilot(source) && rank != Rank::stranger);
-        return rank == Rank::own ? own_[source >> 8].is_alive(Engine::alive_for, now)
-                                 : verified_[source].is_alive(route_timeout_, now);
+    // Whether an own link has this autopilot.
+    [[nodiscard]] bool own_has(Pair autopilot, MonoTime now) const noexcept {
+        assert(is_autopilot(autopilot));
+        return own_[autopilot >> 8].is_alive(Engine::alive_for, now);
     }
     // Call for each frame that is believed, unless it came second-hand.
     void note(Pair source, const Claimant& by, MonoTime now) noexcept {

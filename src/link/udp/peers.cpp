@@ -115,9 +115,9 @@ void UdpPeers::on_io(net::IoEvents) {
 
 void UdpPeers::note_host(UdpPeer& peer, bool answers) {
     const bool was_missing = peer.is_missing(core_.now());
-    if (answers) peer.note_found();
-    else peer.note_missing(core_.now());
+    if (!answers) peer.note_missing(core_.now());
     if (was_missing != answers) return;
+    if (answers) peer.note_found();
     core_.events.notice(endpoint_.info.id,
                         fmt::format("{}: its host {}", peer.name,
                                     answers ? "answers again" : "does not answer on its network; frames for it wait"));

@@ -188,7 +188,8 @@ void UdpPort::receive(const net::ReceiveBatch& batch) {
 }
 
 void UdpPort::expire(MonoTime now) {
-    for (UdpPeer* peer : waiting_) peer->counters.queue_age.add(peer->queue.expire(now));
+    for (UdpPeer* peer : waiting_)
+        if (blocked_ || peer->held || peer->is_missing(now)) peer->counters.queue_age.add(peer->queue.expire(now));
 }
 
 void UdpPort::flush() {

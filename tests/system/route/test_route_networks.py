@@ -462,7 +462,7 @@ def test_stations_that_left_the_network_do_not_delay_the_others(machines, spawn_
             for _ in range(count):
                 sent.append(routers.attitude())
                 vehicle.send(sent[-1])
-                time.sleep(0.005)  # a rate; no verdict hangs on it
+                time.sleep(0.005)  # a rate
 
         def counts(name):
             return [router.link_of(station)[name] for station in leaving]
@@ -471,10 +471,11 @@ def test_stations_that_left_the_network_do_not_delay_the_others(machines, spawn_
             fly(50)
             return all(counts("queue_age"))
         harness.wait_for(all_are_missed, what="frames for all that are gone to wait")
-        before = counts("frames_out")
+        before, began = counts("frames_out"), time.monotonic()
         fly(800)
         assert stays.until(sent[-1])[-len(sent) + 1:] == sent[:-1]
-        assert max(now - first for now, first in zip(counts("frames_out"), before)) < 400, "only to look for them"
+        searched = [now - first for now, first in zip(counts("frames_out"), before)]
+        assert max(searched) < 40 * (time.monotonic() - began + 2), "a datagram of some 30 frames each second"
         harness.wait_for(lambda: counts("queued_bytes") == [0, 0, 0], what="what waits to grow old")
         log = [line for line in router.process.stderr.splitlines() if "its host does not answer on its network" in line]
         assert all(any(station.host in line for line in log) for station in leaving), log
