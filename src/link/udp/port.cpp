@@ -192,22 +192,8 @@ void UdpPort::expire(MonoTime now) {
         if (blocked_ || peer->held || peer->is_missing(now)) peer->counters.queue_age.add(peer->queue.expire(now));
 }
 
-void UdpPort::flush() {
-    if (blocked_) return;
-    core_.send_batch.clear();
-    parts_.clear();
-    for (std::size_t i = 0; i < waiting_.size() && !blocked_; ++i) gather(*waiting_[i]);
-    if (!blocked_) submit();
-    std::erase_if(waiting_, [](UdpPeer* peer) {
-        peer->is_scheduled = !peer->queue.empty();
-        peer->held = peer->held && peer->is_scheduled;
-        return !peer->is_scheduled;
-    });
-    waits_ = !waiting_.empty();
-}
-
 // Adds the peer's queue to the batch: of a missing peer, one datagram now and then.
-void UdpPort::gather(UdpPeer& peer) {
+[[gnu::always_inline]] inline void UdpPort::gather(UdpPeer& peer) {
     const bool is_missing = peer.is_missing(core_.now());
     if (is_missing && !peer.try_search(core_.now())) return;
     net::SendBatch& batch = core_.send_batch;
@@ -221,6 +207,20 @@ void UdpPort::gather(UdpPeer& peer) {
             {&peer, position, static_cast<std::uint32_t>(gathered.blocks), static_cast<std::uint32_t>(gathered.bytes)});
         if (is_missing) break;
     }
+}
+
+void UdpPort::flush() {
+    if (blocked_) return;
+    core_.send_batch.clear();
+    parts_.clear();
+    for (std::size_t i = 0; i < waiting_.size() && !blocked_; ++i) gather(*waiting_[i]);
+    if (!blocked_) submit();
+    std::erase_if(waiting_, [](UdpPeer* peer) {
+        peer->is_scheduled = !peer->queue.empty();
+        peer->held = peer->held && peer->is_scheduled;
+        return !peer->is_scheduled;
+    });
+    waits_ = !waiting_.empty();
 }
 
 // Sends the batch. Returns false if the kernel accepts no more for now. Unsent datagrams stay queued.
