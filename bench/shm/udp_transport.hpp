@@ -9,6 +9,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <cstring>
@@ -22,6 +23,7 @@ class UdpTransport {
     static constexpr unsigned batch = 64;
     static constexpr std::uint64_t counted =
         1024;  // upper bound for the buffer memory that the kernel charges per datagram (768 here)
+    static constexpr std::uint64_t backlog = 960;  // net.core.netdev_max_backlog is 1000; loopback uses that queue, too
     static constexpr std::size_t longest = 512;
 
     struct Batch {
@@ -56,7 +58,7 @@ public:
             int got = 0;
             socklen_t size_of_got = sizeof got;
             ::getsockopt(in, SOL_SOCKET, SO_RCVBUF, &got, &size_of_got);
-            max_in_flight_ = static_cast<std::uint64_t>(got) / counted;
+            max_in_flight_ = std::min(static_cast<std::uint64_t>(got) / counted, backlog / readers);
             in_.push_back(in);
             out_.push_back(out);
         }
