@@ -27,10 +27,7 @@ std::vector<Variables::Name> variable_names() {
 class Loader {
 public:
     Loader(const Document& document, const Environment& environment, Overrides overrides)
-        : document_(document),
-          environment_(environment),
-          variables_(environment, variable_names()),
-          overrides_(overrides) {}
+        : document_(document), variables_(environment, variable_names()), overrides_(overrides) {}
 
     SetupResult<Config> load() {
         static constexpr std::array<std::string_view, 1> lists{"endpoint"};
@@ -125,7 +122,6 @@ private:
     }
 
     const Document& document_;
-    const Environment& environment_;
     Variables variables_;
     Overrides overrides_;
     Config config_;
