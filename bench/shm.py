@@ -201,10 +201,8 @@ def main():
     print(f"shm: {options.rounds} rounds; every record was compared", file=sys.stderr, flush=True)
     for row in rows:
         bench.throughput(*row)
-    # On a busy machine, each hand-over between two programs that spin may take as long as the scheduler lets one spin.
-    spins = 300 if options.quick else 300_000
-    bench.latency("hand-over, spinning", Latency(options.tools, "ring", spins), "cache line",
-                  Latency(options.tools, "line", spins), 3)
+    bench.latency("hand-over, spinning", Latency(options.tools, "ring", 300_000 // scale), "cache line",
+                  Latency(options.tools, "line", 300_000 // scale), 3)
     bench.latency("hand-over, futex", Latency(options.tools, "futex", 50_000 // scale), "pipe",
                   Latency(options.tools, "pipe", 50_000 // scale), None)
     for line in missing:

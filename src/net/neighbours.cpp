@@ -50,7 +50,7 @@ std::optional<T> begin_of(ByteView bytes) noexcept {
     return value;
 }
 
-// The rest behind a part of that length. Parts begin at multiples of 4 bytes.
+// The bytes behind a part of this length. The next part begins at a multiple of 4 bytes.
 ByteView behind(ByteView bytes, std::size_t length) noexcept {
     return bytes.subspan(std::min(bytes.size(), NLMSG_ALIGN(length)));
 }

@@ -150,8 +150,7 @@ std::string Forwarder::text_of(const route::RouteConflict& conflict) const {
     return fmt::format(
         "system {} is alive on {}, so {}, which claims to be it, gets no commands to its autopilot; if both are the "
         "same vehicle, set trusted=true at the endpoint, or, if another router has it, one group= at both paths to "
-        "that router; if not, "
-        "give the other one an id of its own",
+        "that router; if not, give the other one an id of its own",
         conflict.system.value, first, second);
 }
 

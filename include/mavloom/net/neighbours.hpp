@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Reports when a host of this machine's own networks stops answering, or answers again. The kernel finds that out while
-// somebody sends to the host (ARP, neighbour discovery) and announces it (rtnetlink(7)); no privilege is needed. One
-// thread at a time; allocates when opened, and for more changes at once than before.
+// Reports when a host on a network of this machine stops answering, or answers again. The kernel finds that out by ARP
+// or neighbour discovery while somebody sends to the host, and announces it by rtnetlink(7). No privilege is needed.
+// One thread at a time; allocates when opened, and for more changes at once than before.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +33,7 @@ public:
     // kernel's buffer was full, some changes are missing.
     [[nodiscard]] std::span<const Change> read();
 
-    // The changes in a datagram of the kernel, for `read` and its tests.
+    // Adds the changes that the kernel's datagram announces. Public for the tests.
     static void parse(ByteView datagram, std::vector<Change>& changes);
 
 private:

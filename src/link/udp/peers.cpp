@@ -102,8 +102,8 @@ void UdpPeers::watch_neighbours() {
     interface_ = net::index_of_zone(endpoint_.info.endpoint.options.iface);
 }
 
-// The kernel keeps the datagrams for a host that it looks for, in the socket's send buffer. Those for two such hosts
-// fill it, so that all other peers wait.
+// While the kernel looks for a host, datagrams for it stay in the socket's send buffer. Those for two such hosts fill
+// it, so that all other peers wait.
 void UdpPeers::on_io(net::IoEvents) {
     for (const auto& change : neighbours_.read()) {
         if (interface_ != 0 && change.interface != interface_) continue;

@@ -306,7 +306,7 @@ private:
         if (!is_second_hand(ingress, system, component)) note_had(ingress, system, component);
     }
 
-    // The copy on an own link of an autopilot's frame that only strangers brought before, and no own link has it.
+    // A copy, on an own link, of an autopilot's frame that only strangers brought; no own link has the autopilot.
     [[nodiscard]] bool is_second_hand(std::uint32_t ingress, std::uint8_t system, std::uint8_t component) const {
         const bool is_own = links_.at(ingress).policy.rank == Rank::own;
         if (copy_of_ == nullptr || !is_own || !is_autopilot(system, component)) return false;
