@@ -166,6 +166,7 @@ def test_a_crowd_that_comes_and_goes_is_reported_in_few_lines(pair):
     crowd = 1000
     for number in range(crowd):
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as peer:
+            peer.bind((f"127.3.{number >> 8}.{number & 255}", 0))  # one address each: the kernel gives a port twice
             peer.sendto(routers.heartbeat((200, 1)), (LOCALHOST, net.port))
     harness.wait_for(lambda: (e := endpoint(net.router, "in"))["peers_evicted"] + e["peers_refused"]
                      + e["kernel_drop"] >= crowd - 4, what="the crowd to be seen")
