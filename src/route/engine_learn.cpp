@@ -30,12 +30,12 @@ void Engine::Impl::learn(Passage& p) noexcept {
     watch_for_duplicate_ids(p);
 }
 
-// Whether only strangers brought the autopilot's frame before, and no own link has the autopilot. Such a copy takes it
-// from nobody: the vehicle's own frames may have come back through another router. On a verified link, frames of others
-// do not count as heard.
+// Whether this is a copy of an autopilot's frame while no own link has the autopilot: strangers brought the frame
+// first. Such a copy takes the autopilot from nobody: the vehicle's own frames may have come back through another
+// router.
 bool Engine::Impl::is_second_hand(const Passage& p) noexcept {
-    if (!p.is_copy || p.link.policy.rank != Rank::own || !Trust::is_autopilot(p.source)) return false;
-    return !intersect(recent_.heard(p.recent), trusted_.data(), words_) && !trust_.own_has(p.source, p.now);
+    return p.is_copy && p.link.policy.rank == Rank::own && Trust::is_autopilot(p.source) &&
+           !trust_.own_has(p.source, p.now);
 }
 
 bool Engine::Impl::is_believed(const Passage& p) noexcept {

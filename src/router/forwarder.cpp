@@ -148,9 +148,9 @@ std::string Forwarder::text_of(const route::RouteConflict& conflict) const {
             "that needs an id of its own, or a sender that claims to be it, which verify= or learn=first prevent",
             conflict.system.value, first, second);
     return fmt::format(
-        "system {} is alive on {}, so {}, which claims to be it, gets no commands to its autopilot; if both are the "
-        "same vehicle, set trusted=true at the endpoint, or, if another router has it, one group= at both paths to "
-        "that router; if not, give the other one an id of its own",
+        "system {} is alive on {}, so {}, which claims to be it, gets no commands to its autopilot; for another "
+        "vehicle, set another id; for the same one, set trusted=true at the endpoint, or one group= if both links lead "
+        "to the same router",
         conflict.system.value, first, second);
 }
 

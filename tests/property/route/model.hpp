@@ -306,14 +306,12 @@ private:
         if (!is_second_hand(ingress, system, component)) note_had(ingress, system, component);
     }
 
-    // A copy, on an own link, of an autopilot's frame that only strangers brought; no own link has the autopilot.
+    // A copy, on an own link, of an autopilot's frame while no own link has the autopilot.
     [[nodiscard]] bool is_second_hand(std::uint32_t ingress, std::uint8_t system, std::uint8_t component) const {
         const bool is_own = links_.at(ingress).policy.rank == Rank::own;
         if (copy_of_ == nullptr || !is_own || !is_autopilot(system, component)) return false;
         const auto had = had_.find({Rank::own, system, component});
-        if (had != had_.end() && now_ - had->second.last < std::chrono::seconds{2}) return false;
-        return std::ranges::none_of(
-            copy_of_->heard, [&](std::uint32_t id) { return id != gone && links_.at(id).policy.rank >= Rank::own; });
+        return had == had_.end() || now_ - had->second.last >= std::chrono::seconds{2};
     }
 
     // Links of a group lead to the same place, but nobody knows that of the unverified peers of one endpoint.

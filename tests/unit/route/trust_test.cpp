@@ -436,5 +436,26 @@ TEST_F(Trusting, AVehiclesFramesThatComeBackThroughAnotherRouterTakeItFromNobody
     EXPECT_THAT(sut.command(3, gcs, vehicle), ElementsAre(2)) << "that was no copy: it moved";
 }
 
+TEST(TwoRouters, ASecondOfTwoPathsTakesAVehicleFromNobodyWithDedupEither) {
+    Network sut({.dedup = 100ms});
+    // The vehicle, two paths, a station.
+    for (const Rank rank : {stranger, own, own, stranger}) sut.link({.rank = rank});
+    sut.hears(4, gcs);
+    const auto answer = test::make_frame("COMMAND_ACK", vehicle, {{"target_system", 255}, {"target_component", 190}});
+    for (const std::uint32_t link : {1, 2, 3}) sut.wait(1ms).pass(link, answer);
+    EXPECT_THAT(sut.command(4, gcs, vehicle), testing::Contains(1));
+}
+
+TEST_F(Trusting, AStrangerThatBringsTheFramesOfAnOwnLinkSoonerGetsNoCommands) {
+    connect(stranger, own);
+    hear({2}, 1s);
+    for (std::uint32_t i = 0; i < 50; ++i) {
+        const auto frame = test::make_frame("ATTITUDE", vehicle, {{"time_boot_ms", i}});
+        sut.wait(99ms).pass(1, frame);
+        sut.wait(1ms).pass(2, frame);
+        ASSERT_THAT(command(), ElementsAre(2)) << "after " << i << " frames";
+    }
+}
+
 }  // namespace
 }  // namespace mavloom::route
