@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <vector>
@@ -23,7 +25,9 @@ class UdpTransport {
     static constexpr unsigned batch = 64;
     static constexpr std::uint64_t counted =
         1024;  // upper bound for the buffer memory that the kernel charges per datagram (768 here)
-    static constexpr std::uint64_t backlog = 960;  // net.core.netdev_max_backlog is 1000; loopback uses that queue, too
+    // net.core.netdev_max_backlog is 1000; loopback uses that queue, too, and so may other programs.
+    static constexpr std::uint64_t backlog = 500;
+    static constexpr std::chrono::seconds stalled_after{10};
     static constexpr std::size_t longest = 512;
 
     struct Batch {
@@ -58,7 +62,8 @@ public:
             int got = 0;
             socklen_t size_of_got = sizeof got;
             ::getsockopt(in, SOL_SOCKET, SO_RCVBUF, &got, &size_of_got);
-            max_in_flight_ = std::min(static_cast<std::uint64_t>(got) / counted, backlog / readers);
+            max_in_flight_ = std::min(static_cast<std::uint64_t>(got) / counted,
+                                      std::max<std::uint64_t>(batch, backlog / readers));
             in_.push_back(in);
             out_.push_back(out);
         }
@@ -76,13 +81,21 @@ public:
         }
         template <class Shared>
         void flush(const Shared& shared) {
-            while (sent_ + filled_ - shared.slowest() > max_in_flight_) ::sched_yield();
+            const auto end = std::chrono::steady_clock::now() + stalled_after;
+            while (sent_ + filled_ - shared.slowest() > max_in_flight_) {
+                if (std::chrono::steady_clock::now() > end) fail();
+                ::sched_yield();
+            }
             for (const int socket : sockets_) send_all(socket);
             sent_ += filled_;
             filled_ = 0;
         }
 
     private:
+        [[noreturn]] static void fail() {
+            std::fputs("UDP: a reader got nothing for 10 s: the kernel has dropped a datagram; repeat it\n", stderr);
+            std::exit(1);
+        }
         void send_all(int socket) {
             for (unsigned done = 0; done < filled_;) {
                 const int count = ::sendmmsg(socket, batch_->messages.data() + done, filled_ - done, 0);
