@@ -36,6 +36,8 @@ struct Link {
     virtual void schedule() = 0;
     // Parses a datagram, a message or the next bytes of a stream, during a turn. Ignored if the link has ended.
     virtual void hear(ByteView, WallTime) {}
+    // Whether the kernel does not find the far side's host. Frames then wait in the queue.
+    [[nodiscard]] virtual bool is_missing(MonoTime) const noexcept { return false; }
 
     // How the link sends.
     enum class Sending : std::uint8_t {

@@ -235,7 +235,7 @@ MonoTime Links::now() const noexcept { return core_->now(); }
 bool Links::pending() const {
     bool is_sending = false;
     core_->endpoints.each([&](const OpenEndpoint& endpoint) { is_sending = is_sending || endpoint.is_sending(); });
-    return is_sending || core_->links.any_queued();
+    return is_sending || core_->links.any_queued(core_->now());
 }
 
 std::size_t Links::queued_bytes(EndpointId endpoint) const {

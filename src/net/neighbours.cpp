@@ -7,7 +7,9 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cstddef>
 #include <cstring>
 #include <optional>
 
@@ -70,24 +72,57 @@ std::optional<Address> address_of(const ndmsg& about, ByteView bytes) noexcept {
     return Address::from_sockaddr(reinterpret_cast<const sockaddr*>(&v6), sizeof v6);
 }
 
-// `attributes` follow the ndmsg; NDA_DST has the address.
-std::optional<Address> host_of(const ndmsg& about, ByteView attributes) noexcept {
+// The payload of the first attribute of this type; empty if there is none.
+ByteView attribute_of(ByteView attributes, std::uint16_t type) noexcept {
     while (const auto header = begin_of<rtattr>(attributes)) {
         if (header->rta_len < sizeof(rtattr) || header->rta_len > attributes.size()) break;
-        if (header->rta_type == NDA_DST)
-            return address_of(about, attributes.first(header->rta_len).subspan(sizeof(rtattr)));
+        if (header->rta_type == type) return attributes.first(header->rta_len).subspan(sizeof(rtattr));
         attributes = behind(attributes, header->rta_len);
     }
-    return std::nullopt;
+    return {};
 }
 
 std::optional<NeighbourWatch::Change> change_of(ByteView body) noexcept {
     const auto about = begin_of<ndmsg>(body);
     if (!about || (about->ndm_state & (valid | NUD_FAILED)) == 0) return std::nullopt;
-    const auto host = host_of(*about, behind(body, sizeof(ndmsg)));
+    const auto host = address_of(*about, attribute_of(behind(body, sizeof(ndmsg)), NDA_DST));
     if (!host) return std::nullopt;
     return NeighbourWatch::Change{*host, static_cast<std::uint32_t>(about->ndm_ifindex),
                                   (about->ndm_state & valid) != 0};
+}
+
+// Asks for the route to a host.
+struct RouteRequest {
+    nlmsghdr header{};
+    rtmsg about{};
+    rtattr bound_header{sizeof(rtattr) + sizeof bound, RTA_OIF};
+    std::uint32_t bound = 0;
+    rtattr host_header{sizeof(rtattr), RTA_DST};
+    std::array<std::uint8_t, 16> host{};
+};
+static_assert(sizeof(RouteRequest) == sizeof(nlmsghdr) + sizeof(rtmsg) + 2 * sizeof(rtattr) + 20, "without gaps");
+
+RouteRequest request_for(const Address& host, std::uint32_t bound) noexcept {
+    RouteRequest request;
+    const auto* const v4 = reinterpret_cast<const sockaddr_in*>(host.data());
+    const auto* const v6 = reinterpret_cast<const sockaddr_in6*>(host.data());
+    const std::size_t size = host.is_v4() ? sizeof v4->sin_addr : sizeof v6->sin6_addr;
+    std::memcpy(request.host.data(), host.is_v4() ? static_cast<const void*>(&v4->sin_addr) : &v6->sin6_addr, size);
+    request.host_header.rta_len = static_cast<std::uint16_t>(sizeof(rtattr) + size);
+    request.bound = bound != 0 ? bound : host.scope();
+    request.about.rtm_family = static_cast<std::uint8_t>(host.family());
+    request.about.rtm_dst_len = static_cast<std::uint8_t>(8 * size);
+    request.header.nlmsg_type = RTM_GETROUTE;
+    request.header.nlmsg_flags = NLM_F_REQUEST;
+    request.header.nlmsg_len = static_cast<std::uint32_t>(offsetof(RouteRequest, host) + size);
+    return request;
+}
+
+std::uint32_t interface_of_route(ByteView datagram) noexcept {
+    const auto header = begin_of<nlmsghdr>(datagram);
+    if (!header || header->nlmsg_type != RTM_NEWROUTE) return 0;
+    const ByteView attributes = behind(datagram, sizeof(nlmsghdr) + sizeof(rtmsg));
+    return begin_of<std::uint32_t>(attribute_of(attributes, RTA_OIF)).value_or(0);
 }
 
 }  // namespace
@@ -101,6 +136,15 @@ void NeighbourWatch::parse(ByteView datagram, std::vector<Change>& changes) {
         }
         datagram = behind(datagram, header->nlmsg_len);
     }
+}
+
+std::uint32_t interface_to(const Address& host, std::uint32_t bound) noexcept {
+    const Fd fd(::socket(AF_NETLINK, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, NETLINK_ROUTE));
+    const RouteRequest request = request_for(host, bound);
+    if (!fd || ::send(fd.get(), &request, request.header.nlmsg_len, 0) < 0) return 0;
+    std::array<std::uint8_t, 4096> answer{};  // the kernel has answered when send returns
+    const ssize_t size = ::recv(fd.get(), answer.data(), answer.size(), 0);
+    return size <= 0 ? 0 : interface_of_route(ByteView(answer).first(static_cast<std::size_t>(size)));
 }
 
 }  // namespace mavloom::net

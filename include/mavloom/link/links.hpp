@@ -239,7 +239,8 @@ public:
     std::size_t send(EndpointId endpoint, const wire::FrameView& frame);
     std::size_t forward(std::span<const LinkId> links, const wire::FrameView& frame, Rank from) override;
     [[nodiscard]] MonoTime now() const noexcept override;
-    // True while frames are queued, or held by stages, that the kernel has not accepted yet.
+    // True while frames are queued, or held by stages, that the kernel has not accepted yet. Those that wait for a host
+    // that has left its network do not count.
     [[nodiscard]] bool pending() const;
     // Bytes that are queued for an endpoint's links, or held by their stages. A source that reads a file can pause
     // instead of overflowing a queue.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reports when a host on a network of this machine stops answering, or answers again. The kernel finds that out by ARP
 // or neighbour discovery while somebody sends to the host, and announces it by rtnetlink(7). No privilege is needed.
-// One thread at a time; allocates when opened, and for more changes at once than before.
+// One thread at a time; a NeighbourWatch allocates when opened, and for more changes at once than before.
 #pragma once
 
 #include <cstddef>
@@ -41,5 +41,9 @@ private:
     std::vector<std::uint8_t> buffer_;
     std::vector<Change> changes_;
 };
+
+// Returns the index of the interface by which the kernel sends to `host`; 0 if there is no route. `bound`: that of the
+// interface to which the sender is bound, or 0.
+[[nodiscard]] std::uint32_t interface_to(const Address& host, std::uint32_t bound) noexcept;
 
 }  // namespace mavloom::net

@@ -33,9 +33,10 @@ void LinkTable::remove(LinkId id) noexcept {
     --size_;
 }
 
-bool LinkTable::any_queued() const noexcept {
-    return std::ranges::any_of(
-        slots_, [](const Link* link) { return link != nullptr && link->up && link->queued_bytes() != 0; });
+bool LinkTable::any_queued(MonoTime now) const noexcept {
+    return std::ranges::any_of(slots_, [&](const Link* link) {
+        return link != nullptr && link->up && !link->is_missing(now) && link->queued_bytes() != 0;
+    });
 }
 
 bool LinkTable::name_taken(const std::string& name) const noexcept {

@@ -27,7 +27,7 @@ public:
         return link != nullptr && link->id == id ? link : nullptr;
     }
     // True while a link that is up has frames queued.
-    [[nodiscard]] bool any_queued() const noexcept;
+    [[nodiscard]] bool any_queued(MonoTime now) const noexcept;
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     template <class F>
     void each(F&& f) const {

@@ -15,7 +15,7 @@ class Outlet {
 public:
     virtual ~Outlet() = default;
     virtual void flush() = 0;
-    // True while something is queued that the kernel does not accept.
+    // True while something is queued that the kernel does not accept, or whose host has left its network.
     [[nodiscard]] virtual bool blocked() const = 0;
     // Drops frames that became too old while the outlet was blocked.
     virtual void expire(MonoTime now) = 0;

@@ -99,25 +99,30 @@ void UdpPeers::watch_neighbours() {
     if (!watch) return;
     watch_ = *watch;
     neighbours_ = std::move(*opened);
-    interface_ = net::index_of_zone(endpoint_.info.endpoint.options.iface);
 }
 
 // While the kernel looks for a host, datagrams for it stay in the socket's send buffer. Those for two such hosts fill
 // it, so that all other peers wait.
 void UdpPeers::on_io(net::IoEvents) {
-    for (const auto& change : neighbours_.read()) {
-        if (interface_ != 0 && change.interface != interface_) continue;
+    for (const auto& change : neighbours_.read())
         peers_.each([&](UdpPeer& peer) {
-            if (peer.address.unmapped().with_port(0) == change.host) note_host(peer, change.answers);
+            if (peer.address.unmapped().with_port(0) == change.host) note_host(peer, change);
         });
-    }
 }
 
-void UdpPeers::note_host(UdpPeer& peer, bool answers) {
+void UdpPeers::note_host(UdpPeer& peer, const net::NeighbourWatch::Change& change) {
     const bool was_missing = peer.is_missing(core_.now());
-    if (!answers) peer.note_missing(core_.now());
-    if (was_missing != answers) return;
-    if (answers) peer.note_found();
+    if (change.answers && !was_missing) return;
+    // Two interfaces may lead to equal networks.
+    const auto bound = net::index_of_zone(endpoint_.info.endpoint.options.iface);
+    if (change.interface != net::interface_to(change.host, bound)) return;
+    if (change.answers) peer.note_found();
+    else peer.note_missing(core_.now());
+    if (was_missing == change.answers) report(peer, change.answers);
+}
+
+void UdpPeers::report(const UdpPeer& peer, bool answers) {
+    if (!reports_.take(core_.now())) return;
     core_.events.notice(endpoint_.info.id,
                         fmt::format("{}: its host {}", peer.name,
                                     answers ? "answers again" : "does not answer on its network; frames for it wait"));

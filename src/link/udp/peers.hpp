@@ -58,7 +58,8 @@ public:
 
 private:
     void watch_neighbours();
-    void note_host(UdpPeer& peer, bool answers);
+    void note_host(UdpPeer& peer, const net::NeighbourWatch::Change& change);
+    void report(const UdpPeer& peer, bool answers);
     UdpPeer* newcomer(UdpPort& port, const net::Datagram& datagram);
     [[nodiscard]] bool is_own_port(const UdpPort& port, std::uint16_t number) const;
     [[nodiscard]] bool may_be_peer(const UdpPort& port, const net::Address& sender);
@@ -79,7 +80,7 @@ private:
     net::TimerId expiry_;
     net::NeighbourWatch neighbours_;  // opened for the first peer on a network
     net::WatchId watch_;
-    std::uint32_t interface_ = 0;  // the only one that the endpoint uses; 0: all
+    Pace reports_{std::chrono::seconds(1), 20};  // anybody may invent peers
 };
 
 }  // namespace mavloom::link::detail

@@ -123,7 +123,7 @@ void UdpPort::take_failures() {
             peer->note_refusal(core_.now());
             owner_.on_refused(*peer, failure->reporter);
         }
-        owner_.on_send_error(failure->error);
+        owner_.on_send_error(failure->error, peer);
     }
 }
 
@@ -192,10 +192,17 @@ void UdpPort::expire(MonoTime now) {
         if (blocked_ || peer->held || peer->is_missing(now)) peer->counters.queue_age.add(peer->queue.expire(now));
 }
 
-// Adds the peer's queue to the batch: of a missing peer, one datagram now and then.
+// Adds an empty datagram to the batch, so that the kernel looks for the peer's host.
+[[gnu::cold]] void UdpPort::search(UdpPeer& peer) {
+    if (!peer.may_search(core_.now()) || (core_.send_batch.full() && !submit())) return;
+    core_.send_batch.add(&peer.address, 0);
+    parts_.push_back({&peer, peer.queue.front(), 0, 0});
+}
+
+// Adds the peer's queue to the batch.
 [[gnu::always_inline]] inline void UdpPort::gather(UdpPeer& peer) {
-    const bool is_missing = peer.is_missing(core_.now());
-    if (is_missing && !peer.try_search(core_.now())) return;
+    if (peer.is_missing(core_.now())) [[unlikely]]
+        return search(peer);
     net::SendBatch& batch = core_.send_batch;
     auto position = peer.queue.front();
     while (!peer.held) {
@@ -205,7 +212,6 @@ void UdpPort::expire(MonoTime now) {
         batch.add(&peer.address, gathered.pieces);
         parts_.push_back(
             {&peer, position, static_cast<std::uint32_t>(gathered.blocks), static_cast<std::uint32_t>(gathered.bytes)});
-        if (is_missing) break;
     }
 }
 
@@ -265,12 +271,12 @@ void UdpPort::recover(std::size_t& index, net::IoError error, int& refusals) {
     if (may_be_of_another && ++refusals < max_refusals) return;
     refusals = 0;
     counters_.send_errors.add();
-    if (const Part& part = parts_[index]; part.peer != nullptr) {
+    const Part& part = parts_[index++];
+    if (part.peer != nullptr) {
         part.peer->counters.frames_not_sent.add(part.frames);
         part.peer->queue.pop(part.until);
     }
-    ++index;
-    owner_.on_send_error(error);
+    owner_.on_send_error(error, part.peer);
 }
 
 void UdpPort::block() {

@@ -26,6 +26,7 @@ struct UdpPeer final : Link {
         : Link(owner, options), port(&p), address(a), parser(table) {}
     void schedule() override;
     void hear(ByteView bytes, WallTime time) override;
+    [[nodiscard]] bool is_missing(MonoTime now) const noexcept override { return now < missing_until_; }
 
     UdpPort* port;
     net::Address address;
@@ -45,12 +46,11 @@ struct UdpPeer final : Link {
     // Notes that the far side's port is closed. ICMP does not report every datagram sent to a closed port, so frames
     // sent in the next second also count as refused.
     void note_refusal(MonoTime now) noexcept;
-    // Notes that the kernel no longer finds the far side's host, or finds it again. While it is missing, frames wait in
-    // the queue. For the one datagram that `try_search` allows each second, the kernel looks for the host.
+    // Notes that the kernel no longer finds the far side's host, or finds it again. It looks for the host when
+    // something is sent to it; while the host is missing, `may_search` allows that once a second.
     void note_missing(MonoTime now) noexcept { missing_until_ = now + announced_within; }
     void note_found() noexcept;
-    [[nodiscard]] bool is_missing(MonoTime now) const noexcept { return now < missing_until_; }
-    [[nodiscard]] bool try_search(MonoTime now) noexcept { return searches_.take(now); }
+    [[nodiscard]] bool may_search(MonoTime now) noexcept { return searches_.take(now); }
     // Changes the far side's address. Refusals from the old address are forgotten.
     void move_to(const net::Address& where) noexcept;
     // Counts sent frames at once only if the peer was heard since its last refusal. Otherwise `settle` counts them.
@@ -90,8 +90,8 @@ public:
     virtual void on_confirmed(UdpPeer&) {}
     // Called when `reporter` has reported that nobody listens at the peer's address.
     virtual void on_refused(UdpPeer&, const net::Address& /*reporter*/) {}
-    // Called when the kernel or the network has rejected a datagram.
-    virtual void on_send_error(net::IoError error) = 0;
+    // Called when the kernel or the network has rejected a datagram. `peer` is null if it was for nobody that is known.
+    virtual void on_send_error(net::IoError error, const UdpPeer* peer) = 0;
 
     net::BindErrors bind_errors{net::Transport::udp};
 };
@@ -136,6 +136,7 @@ private:
     void receive();
     void receive(const net::ReceiveBatch& batch);
     void parse(UdpPeer& peer, ByteView bytes, WallTime time);
+    void search(UdpPeer& peer);
     void gather(UdpPeer& peer);
     bool submit();
     void recover(std::size_t& index, net::IoError error, int& refusals);

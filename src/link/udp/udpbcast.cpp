@@ -48,7 +48,7 @@ public:
     void on_resolved(net::Resolver::Answer&& answer) override;
 
     UdpPeer* peer_of(UdpPort& port, const net::Datagram& datagram) override;
-    void on_send_error(net::IoError error) override;
+    void on_send_error(net::IoError error, const UdpPeer* peer) override;
     void on_first_confirmed(const net::Address& from) override {
         core_.events.mark_down(everybody_, fmt::format("{} answers", from.text()));
     }
@@ -102,8 +102,9 @@ UdpPeer* UdpBroadcast::peer_of(UdpPort& port, const net::Datagram& datagram) {
     return info.endpoint.options.fixed ? &everybody_ : peers_.of(port, datagram);
 }
 
-void UdpBroadcast::on_send_error(net::IoError error) {
-    if (error == net::IoError::refused) return;  // a peer's port was closed
+void UdpBroadcast::on_send_error(net::IoError error, const UdpPeer* peer) {
+    const bool is_of_one = error == net::IoError::refused || (peer != nullptr && peer != &everybody_);
+    if (is_of_one) return;
     if (std::exchange(reported_unreachable_, true)) return;
     core_.events.notice(info.id, fmt::format("{}: no network reaches {} now; sending continues", info.endpoint.label(),
                                              everybody_.address.text()));

@@ -33,7 +33,7 @@ public:
     void on_resolved(net::Resolver::Answer&& answer) override;
 
     UdpPeer* peer_of(UdpPort& port, const net::Datagram& datagram) override { return peers_.of(port, datagram); }
-    void on_send_error(net::IoError) override {}
+    void on_send_error(net::IoError, const UdpPeer*) override {}
     void on_timer(MonoTime) override { look_up(info.endpoint.address); }
 
 private:

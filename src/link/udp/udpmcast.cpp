@@ -51,7 +51,7 @@ public:
         const bool own = datagram.from->port() == own_port_ && core_.own_addresses.contains(*datagram.from, core_.now());
         return own ? nullptr : &group_;
     }
-    void on_send_error(net::IoError error) override;
+    void on_send_error(net::IoError error, const UdpPeer*) override;
     void on_timer(MonoTime now) override;
 
 private:
@@ -88,7 +88,7 @@ SetupResult<void> UdpMulticast::join() {
     return {};
 }
 
-void UdpMulticast::on_send_error(net::IoError error) {
+void UdpMulticast::on_send_error(net::IoError error, const UdpPeer*) {
     if (error == net::IoError::refused) return;
     if (std::exchange(failing_, true)) return;
     fail({SetupCode::unreachable, 0, "no network reaches the group now"});

@@ -53,7 +53,7 @@ public:
     UdpPeer* find_peer(UdpPort&, const net::Address& address) const override {
         return peer_ && address == peer_->address ? peer_.get() : nullptr;
     }
-    void on_send_error(net::IoError error) override;
+    void on_send_error(net::IoError error, const UdpPeer*) override;
     void on_timer(MonoTime now) override;
 
 private:
@@ -125,7 +125,7 @@ void UdpOut::on_resolved(net::Resolver::Answer&& answer) {
     retry_.fail(done.error());
 }
 
-void UdpOut::on_send_error(net::IoError error) {
+void UdpOut::on_send_error(net::IoError error, const UdpPeer*) {
     if (!peer_) return;
     const bool refused = error == net::IoError::refused;
     if (!retry_.is_failing())

@@ -103,13 +103,13 @@ Finding queue_drop(const Hop& hop, const HopLink& link, const NamedCount& loss) 
                     .link = link.name};
     finding.what = fmt::format("{} dropped {} while we listened ({}).", hop.name, counted(loss.count, "frame"),
                                loss.name);
-    finding.why = loss.name == "frames_not_sent"
-                      ? "The kernel rejected them: the network or the address cannot be reached."
-                      : "The link is slower than what it should carry, or its far side does not read.";
-    finding.remedy = loss.name == "frames_not_sent"
-                         ? "Check the address, the route and the interface of this link."
-                         : "Lower the rates of this link with max_rate= or out_block=, or make it faster. Commands and "
-                           "parameters are dropped last.";
+    const bool is_rejected = loss.name == "frames_not_sent";
+    finding.why = is_rejected ? "The kernel rejected them: the network or the address cannot be reached."
+                              : "The link is slower than what it should carry, its far side does not read, or its host "
+                                "left the network.";
+    finding.remedy = is_rejected ? "Check the address, the route and the interface of this link."
+                                 : "Unless the host is gone, lower the rates of this link with max_rate= or "
+                                   "out_block=, or make it faster. Commands and parameters are dropped last.";
     return finding;
 }
 

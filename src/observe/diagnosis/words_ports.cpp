@@ -40,9 +40,9 @@ Finding port_refused(const Hop& hop, const HopLink& link, std::uint64_t frames) 
                     .severity = Severity::error,
                     .where = fmt::format("{}: {}", hop.name, link.name),
                     .link = link.name};
-    finding.what = fmt::format("{} went to a closed port.", counted(frames, "frame"));
-    finding.why = "No program listens there, so nobody gets what this link sends.";
-    finding.remedy = "Start the program at the far side, or remove the endpoint.";
+    finding.what = fmt::format("{} met a closed port, or a host that is gone.", counted(frames, "frame"));
+    finding.why = "Nobody gets what this link sends.";
+    finding.remedy = "Start the program at the far side, bring its host back, or remove the endpoint.";
     return finding;
 }
 

@@ -85,5 +85,13 @@ TEST(Neighbours, AnyUserMayWatch) {
     EXPECT_TRUE(sut) << sut.error().text;
 }
 
+TEST(Neighbours, TheInterfaceThatLeadsToAHost) {
+    const auto loopback = index_of_zone("lo");
+    EXPECT_EQ(interface_to(*Address::parse("127.0.0.1", 14550), 0), loopback);
+    EXPECT_EQ(interface_to(*Address::parse("127.0.0.1", 0), loopback), loopback);
+    EXPECT_EQ(interface_to(*Address::parse("::1", 0), 0), loopback);
+    EXPECT_EQ(interface_to(*Address::parse("127.0.0.1", 0), 1u << 30), 0u) << "no such interface";
+}
+
 }  // namespace
 }  // namespace mavloom::net
