@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """check_files.py [FILE...]: finds files that do not belong in the repository, among the files given or all that git
-knows: object files, archives and executables, and files of more than 1 MB outside tests/data.
+does not ignore: object files, archives and executables, and files of more than 1 MB outside tests/data.
 
 Prints `FILE: what it is`. Status: 0 nothing found, 1 something found.
 """
@@ -47,7 +47,8 @@ def fault_of(path: pathlib.Path) -> str | None:
 
 
 def known_files() -> list[pathlib.Path]:
-    listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=ROOT,
+                            check=True, capture_output=True, text=True).stdout
     return [ROOT / name for name in listed.split("\0") if name]
 
 

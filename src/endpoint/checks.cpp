@@ -61,8 +61,6 @@ SetupResult<void> check_supported(const Endpoint& endpoint, RoutingOptions routi
     const bool is_one_link = cast == Cast::group || (cast == Cast::broadcast && o.fixed);
     if (is_one_link && o.max_peers != EndpointOptions{}.max_peers)
         return refused(endpoint, "all senders that are heard here share one link, so max_peers= has no effect");
-    constexpr std::uint64_t max_queue_bytes = std::uint64_t{1} << 30;  // queue offsets have 32 bits
-    if (o.queue_bytes > max_queue_bytes) return refused(endpoint, "queue_bytes= goes up to 1 GiB");
     return {};
 }
 

@@ -70,7 +70,8 @@ SetupResult<void> set_group_mode(EndpointOptions& options, std::string_view text
 
 constexpr std::uint64_t longest_frame_bytes = 280;  // MAVLink 2, 255 payload bytes, signed
 constexpr std::uint64_t longest_datagram_bytes = 65507;
-constexpr std::uint64_t max_queue_bytes = std::uint64_t{1} << 40;
+constexpr std::uint64_t max_queue_bytes = std::uint64_t{1} << 30;  // queue offsets have 32 bits
+constexpr std::uint64_t highest_bytes_per_s = std::uint64_t{1} << 40;
 constexpr std::uint64_t max_rcvbuf_bytes = std::numeric_limits<std::int32_t>::max();  // SO_RCVBUF is an int
 
 SetupResult<void> set_mtu(EndpointOptions& options, std::string_view text) {
@@ -179,7 +180,7 @@ constexpr std::array options_table{
     Option{"max_rate", takes::link, "", [](O& o, std::string_view t) { return put(parse_rates(t), o.max_rate); }},
     Option{"max_bytes", takes::link, "",
            [](O& o, std::string_view t) {
-               return put(size_within(t, longest_frame_bytes, max_queue_bytes), o.max_bytes_per_s);
+               return put(size_within(t, longest_frame_bytes, highest_bytes_per_s), o.max_bytes_per_s);
            }},
     Option{"in_allow", takes::link, "", set_filter<&O::in_allow>},
     Option{"in_block", takes::link, "", set_filter<&O::in_block>},

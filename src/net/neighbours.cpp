@@ -147,4 +147,13 @@ std::uint32_t interface_to(const Address& host, std::uint32_t bound) noexcept {
     return size <= 0 ? 0 : interface_of_route(ByteView(answer).first(static_cast<std::size_t>(size)));
 }
 
+// The kernel keeps the datagram while it looks for the host, and charges it to this socket alone.
+void look_for(const Address& host, std::uint32_t interface) noexcept {
+    static constexpr std::uint16_t discard = 9;
+    const Address to = host.unmapped().with_port(discard);
+    const Fd fd(::socket(to.family(), SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+    ::setsockopt(fd.get(), SOL_SOCKET, SO_BINDTOIFINDEX, &interface, sizeof interface);
+    ::sendto(fd.get(), nullptr, 0, 0, to.data(), to.size());
+}
+
 }  // namespace mavloom::net

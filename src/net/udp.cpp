@@ -102,10 +102,10 @@ std::size_t ReceiveBatch::bytes() const noexcept {
 SendBatch::SendBatch() : messages_(max_datagrams), iovecs_(max_pieces) {}
 
 void SendBatch::add(const Address* to, std::size_t pieces) noexcept {
-    assert(!full() && pieces_ + pieces <= max_pieces);
+    assert(!full() && pieces != 0 && pieces_ + pieces <= max_pieces);
     msghdr& header = messages_[count_++].msg_hdr;
     header = {};
-    header.msg_iov = iovecs_.data() + pieces_;
+    header.msg_iov = &iovecs_[pieces_];
     header.msg_iovlen = pieces;
     if (to != nullptr) {
         header.msg_name = const_cast<sockaddr*>(to->data());  // only read by sendmmsg

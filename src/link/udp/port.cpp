@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "link/udp/udp.hpp"
+#include "mavloom/net/neighbours.hpp"
 
 namespace mavloom::link::detail {
 
@@ -49,9 +50,18 @@ void UdpPeer::note_refusal(MonoTime now) noexcept {
     unsettled_bytes_ = 0;
 }
 
+void UdpPeer::note_missing(std::uint32_t interface, MonoTime now) noexcept {
+    interface_ = interface;
+    missing_until_ = now + announced_within;
+}
+
 void UdpPeer::note_found() noexcept {
     missing_until_ = {};
     end_refusal();
+}
+
+void UdpPeer::search(MonoTime now) noexcept {
+    if (searches_.take(now)) net::look_for(address, interface_);
 }
 
 void UdpPeer::count_sent(std::uint32_t frames, std::uint32_t bytes, MonoTime now) noexcept {
@@ -192,17 +202,12 @@ void UdpPort::expire(MonoTime now) {
         if (blocked_ || peer->held || peer->is_missing(now)) peer->counters.queue_age.add(peer->queue.expire(now));
 }
 
-// Adds an empty datagram to the batch, so that the kernel looks for the peer's host.
-[[gnu::cold]] void UdpPort::search(UdpPeer& peer) {
-    if (!peer.may_search(core_.now()) || (core_.send_batch.full() && !submit())) return;
-    core_.send_batch.add(&peer.address, 0);
-    parts_.push_back({&peer, peer.queue.front(), 0, 0});
-}
-
-// Adds the peer's queue to the batch.
+// Adds the peer's queue to the batch, unless its host is missing.
 [[gnu::always_inline]] inline void UdpPort::gather(UdpPeer& peer) {
-    if (peer.is_missing(core_.now())) [[unlikely]]
-        return search(peer);
+    if (peer.is_missing(core_.now())) [[unlikely]] {
+        peer.search(core_.now());
+        return;
+    }
     net::SendBatch& batch = core_.send_batch;
     auto position = peer.queue.front();
     while (!peer.held) {

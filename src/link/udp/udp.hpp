@@ -46,11 +46,11 @@ struct UdpPeer final : Link {
     // Notes that the far side's port is closed. ICMP does not report every datagram sent to a closed port, so frames
     // sent in the next second also count as refused.
     void note_refusal(MonoTime now) noexcept;
-    // Notes that the kernel no longer finds the far side's host, or finds it again. It looks for the host when
-    // something is sent to it; while the host is missing, `may_search` allows that once a second.
-    void note_missing(MonoTime now) noexcept { missing_until_ = now + announced_within; }
+    // Notes that the kernel no longer finds the far side's host by this interface, or finds it again. It looks for the
+    // host when something is sent to it: `search` does that, at most once a second.
+    void note_missing(std::uint32_t interface, MonoTime now) noexcept;
     void note_found() noexcept;
-    [[nodiscard]] bool may_search(MonoTime now) noexcept { return searches_.take(now); }
+    void search(MonoTime now) noexcept;
     // Changes the far side's address. Refusals from the old address are forgotten.
     void move_to(const net::Address& where) noexcept;
     // Counts sent frames at once only if the peer was heard since its last refusal. Otherwise `settle` counts them.
@@ -67,6 +67,7 @@ private:
     static constexpr std::chrono::seconds announced_within{10};
     static constexpr std::int64_t answers_per_byte = 3;  // to a peer that has not confirmed its address, as in QUIC
     bool listens_ = false;                               // the peer was heard, and has not refused anything since
+    std::uint32_t interface_ = 0;                        // by which the host is missing
     MonoTime missing_until_{};
     Pace searches_{std::chrono::seconds(1), 1};
     std::uint32_t unsettled_frames_ = 0, unsettled_bytes_ = 0;
@@ -136,7 +137,6 @@ private:
     void receive();
     void receive(const net::ReceiveBatch& batch);
     void parse(UdpPeer& peer, ByteView bytes, WallTime time);
-    void search(UdpPeer& peer);
     void gather(UdpPeer& peer);
     bool submit();
     void recover(std::size_t& index, net::IoError error, int& refusals);

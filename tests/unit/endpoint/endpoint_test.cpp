@@ -251,6 +251,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"udpin://127.0.0.1:1?idle=2sec", "not a duration"}, Bad{"udpin://127.0.0.1:1?idle=inf", "not a duration"},
         Bad{"udpin://127.0.0.1:1?idle=nan", "not a duration"}, Bad{"udpin://127.0.0.1:1?idle=1e99", "ten years"},
         Bad{"udpin://127.0.0.1:1?queue_bytes=279", "out of range"},
+        Bad{"udpin://127.0.0.1:1?queue_bytes=2000000000", "out of range (280 to 1073741824 bytes)"},
         Bad{"udpin://127.0.0.1:1?queue_bytes=1x", "not a size"},
         Bad{"udpin://127.0.0.1:1?queue_bytes=99999999999999999999", "not a size"},
         Bad{"udpin://127.0.0.1:1?queue_bytes=9999999999999G", "larger than any disk"},

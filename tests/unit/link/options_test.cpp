@@ -38,7 +38,6 @@ TEST(LinksOptions, NothingIsSilentlyIgnored) {
              Refusal{"udpin://127.0.0.1:1?ttl=0", "ttl=0 keeps datagrams of a multicast group"},
              Refusal{"udpmcast://239.255.145.50:14550?max_peers=3", "max_peers= has no effect"},
              Refusal{"udpbcast://127.255.255.255:14550?fixed=true&max_peers=3", "max_peers= has no effect"},
-             Refusal{"udpin://127.0.0.1:1?queue_bytes=2000000000", "queue_bytes= goes up to 1 GiB"},
          }) {
         Node node;
         const auto error = node.refused(url);
