@@ -70,7 +70,6 @@ SetupResult<void> set_group_mode(EndpointOptions& options, std::string_view text
 
 constexpr std::uint64_t longest_frame_bytes = 280;  // MAVLink 2, 255 payload bytes, signed
 constexpr std::uint64_t longest_datagram_bytes = 65507;
-constexpr std::uint64_t max_queue_bytes = std::uint64_t{1} << 30;  // queue offsets have 32 bits
 constexpr std::uint64_t highest_bytes_per_s = std::uint64_t{1} << 40;
 constexpr std::uint64_t max_rcvbuf_bytes = std::numeric_limits<std::int32_t>::max();  // SO_RCVBUF is an int
 
@@ -171,7 +170,7 @@ constexpr std::array options_table{
            }},
     Option{"queue_bytes", takes::link, "1MiB",
            [](O& o, std::string_view t) {
-               return put(size_within(t, longest_frame_bytes, max_queue_bytes), o.queue_bytes);
+               return put(size_within(t, longest_frame_bytes, O::max_queue_bytes), o.queue_bytes);
            }},
     Option{"queue_age", takes::link, "1s for telemetry, 10s for the others",
            [](O& o, std::string_view t) {

@@ -22,6 +22,7 @@ struct LinkDialect;
 
 [[nodiscard]] inline net::BlockQueue::Limits queue_limits(const endpoint::EndpointOptions& options) {
     net::BlockQueue::Limits limits;
+    assert(options.queue_bytes <= endpoint::EndpointOptions::max_queue_bytes);
     limits.max_bytes = static_cast<std::size_t>(options.queue_bytes);
     if (options.queue_age) limits.max_age.fill(*options.queue_age);
     return limits;

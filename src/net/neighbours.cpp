@@ -91,32 +91,45 @@ std::optional<NeighbourWatch::Change> change_of(ByteView body) noexcept {
                                   (about->ndm_state & valid) != 0};
 }
 
-// Asks for the route to a host.
-struct RouteRequest {
-    nlmsghdr header{};
-    rtmsg about{};
-    rtattr bound_header{sizeof(rtattr) + sizeof bound, RTA_OIF};
-    std::uint32_t bound = 0;
-    rtattr host_header{sizeof(rtattr), RTA_DST};
-    std::array<std::uint8_t, 16> host{};
-};
-static_assert(sizeof(RouteRequest) == sizeof(nlmsghdr) + sizeof(rtmsg) + 2 * sizeof(rtattr) + 20, "without gaps");
-
-RouteRequest request_for(const Address& host, std::uint32_t bound) noexcept {
-    RouteRequest request;
-    const auto* const v4 = reinterpret_cast<const sockaddr_in*>(host.data());
-    const auto* const v6 = reinterpret_cast<const sockaddr_in6*>(host.data());
-    const std::size_t size = host.is_v4() ? sizeof v4->sin_addr : sizeof v6->sin6_addr;
-    std::memcpy(request.host.data(), host.is_v4() ? static_cast<const void*>(&v4->sin_addr) : &v6->sin6_addr, size);
-    request.host_header.rta_len = static_cast<std::uint16_t>(sizeof(rtattr) + size);
-    request.bound = bound != 0 ? bound : host.scope();
-    request.about.rtm_family = static_cast<std::uint8_t>(host.family());
-    request.about.rtm_dst_len = static_cast<std::uint8_t>(8 * size);
-    request.header.nlmsg_type = RTM_GETROUTE;
-    request.header.nlmsg_flags = NLM_F_REQUEST;
-    request.header.nlmsg_len = static_cast<std::uint32_t>(offsetof(RouteRequest, host) + size);
-    return request;
+// The address without family and port, as the kernel writes it. A view into `address`.
+ByteView bytes_of(const Address& address) noexcept {
+    const auto* const v4 = &reinterpret_cast<const sockaddr_in*>(address.data())->sin_addr;
+    const auto* const v6 = &reinterpret_cast<const sockaddr_in6*>(address.data())->sin6_addr;
+    return address.is_v4() ? ByteView(reinterpret_cast<const std::uint8_t*>(v4), sizeof *v4)
+                           : ByteView(reinterpret_cast<const std::uint8_t*>(v6), sizeof *v6);
 }
+
+// Asks for the route to a host: an nlmsghdr, an rtmsg and attributes.
+class RouteRequest {
+public:
+    RouteRequest(const Address& host, const Address& from, std::uint32_t bound) noexcept {
+        about_.rtm_family = static_cast<std::uint8_t>(host.family());
+        about_.rtm_dst_len = append(RTA_DST, bytes_of(host));
+        if (!from.is_any() && from.family() == host.family()) about_.rtm_src_len = append(RTA_SRC, bytes_of(from));
+        if (bound != 0) append(RTA_OIF, ByteView(reinterpret_cast<const std::uint8_t*>(&bound), sizeof bound));
+        header_.nlmsg_type = RTM_GETROUTE;
+        header_.nlmsg_flags = NLM_F_REQUEST;
+        header_.nlmsg_len = static_cast<std::uint32_t>(offsetof(RouteRequest, attributes_) + size_);
+    }
+    [[nodiscard]] ByteView bytes() const noexcept {
+        return {reinterpret_cast<const std::uint8_t*>(this), header_.nlmsg_len};
+    }
+
+private:
+    // Returns the length of the payload in bits.
+    std::uint8_t append(std::uint16_t type, ByteView payload) noexcept {
+        const rtattr header{static_cast<std::uint16_t>(sizeof header + payload.size()), type};
+        std::memcpy(attributes_.data() + size_, &header, sizeof header);
+        std::memcpy(attributes_.data() + size_ + sizeof header, payload.data(), payload.size());
+        size_ += header.rta_len;  // a multiple of 4: no padding
+        return static_cast<std::uint8_t>(8 * payload.size());
+    }
+
+    nlmsghdr header_{};
+    rtmsg about_{};
+    std::array<std::uint8_t, 3 * (sizeof(rtattr) + 16)> attributes_{};
+    std::size_t size_ = 0;
+};
 
 std::uint32_t interface_of_route(ByteView datagram) noexcept {
     const auto header = begin_of<nlmsghdr>(datagram);
@@ -138,10 +151,11 @@ void NeighbourWatch::parse(ByteView datagram, std::vector<Change>& changes) {
     }
 }
 
-std::uint32_t interface_to(const Address& host, std::uint32_t bound) noexcept {
+std::uint32_t interface_to(const Address& host, const Address& from, std::uint32_t bound) noexcept {
+    if (host.scope() != 0) return host.scope();
     const Fd fd(::socket(AF_NETLINK, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, NETLINK_ROUTE));
-    const RouteRequest request = request_for(host, bound);
-    if (!fd || ::send(fd.get(), &request, request.header.nlmsg_len, 0) < 0) return 0;
+    const RouteRequest request(host.unmapped(), from.unmapped(), bound);
+    if (!fd || ::send(fd.get(), request.bytes().data(), request.bytes().size(), 0) < 0) return 0;
     std::array<std::uint8_t, 4096> answer{};  // the kernel has answered when send returns
     const ssize_t size = ::recv(fd.get(), answer.data(), answer.size(), 0);
     return size <= 0 ? 0 : interface_of_route(ByteView(answer).first(static_cast<std::size_t>(size)));

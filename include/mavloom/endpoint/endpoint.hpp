@@ -34,14 +34,16 @@ using dialect::RateTerm;
 using route::GroupMode;
 
 struct EndpointOptions {
+    static constexpr std::uint64_t max_queue_bytes = std::uint64_t{1} << 30;
+
     std::string name;  // empty: the URL without its query
     std::string group;
     GroupMode group_mode = GroupMode::all;
     // False: `group_mode` is the default, and another endpoint of the group may set the mode.
     bool has_group_mode = false;
-    std::uint32_t mtu_bytes = 1280;                // 0: one frame per datagram
-    std::optional<std::chrono::nanoseconds> idle;  // default: 60 s for UDP peers, none for others
-    std::uint64_t queue_bytes = 1 << 20;
+    std::uint32_t mtu_bytes = 1280;                     // 0: one frame per datagram
+    std::optional<std::chrono::nanoseconds> idle;       // default: 60 s for UDP peers, none for others
+    std::uint64_t queue_bytes = 1 << 20;                // at most max_queue_bytes
     std::optional<std::chrono::nanoseconds> queue_age;  // default: 1 s for telemetry, 10 s for other frames
     std::vector<RateTerm> max_rate;
     std::optional<std::uint64_t> max_bytes_per_s;

@@ -42,9 +42,9 @@ private:
     std::vector<Change> changes_;
 };
 
-// Returns the index of the interface by which the kernel sends to `host`; 0 if there is no route. `bound`: that of the
-// interface to which the sender is bound, or 0.
-[[nodiscard]] std::uint32_t interface_to(const Address& host, std::uint32_t bound) noexcept;
+// Returns the index of the interface by which the kernel sends to `host`; 0 if there is no route. `from`: the sender's
+// address, or 0.0.0.0 or ::. `bound`: the interface to which the sender is bound, or 0.
+[[nodiscard]] std::uint32_t interface_to(const Address& host, const Address& from, std::uint32_t bound) noexcept;
 // Makes the kernel look for a host on the network of this interface: sends an empty datagram to the host's port 9, that
 // of the discard protocol (RFC 863). Errors are ignored.
 void look_for(const Address& host, std::uint32_t interface) noexcept;

@@ -115,7 +115,7 @@ void UdpPeers::note_host(UdpPeer& peer, const net::NeighbourWatch::Change& chang
     if (change.answers && !was_missing) return;
     // Two interfaces may lead to equal networks.
     const auto bound = net::index_of_zone(endpoint_.info.endpoint.options.iface);
-    if (change.interface != net::interface_to(change.host, bound)) return;
+    if (change.interface != net::interface_to(change.host, peer.port->socket().local(), bound)) return;
     if (change.answers) peer.note_found();
     else peer.note_missing(change.interface, core_.now());
     if (was_missing == change.answers) report(peer, change.answers);

@@ -128,8 +128,8 @@ void UdpPort::take_failures() {
     while (const auto failure = socket_.take_failure()) {
         counters_.send_errors.add();
         const bool nobody_there = failure->error == net::IoError::refused || failure->error == net::IoError::unreachable;
-        UdpPeer* const peer = nobody_there ? owner_.find_peer(*this, failure->to) : nullptr;
-        if (peer != nullptr) {
+        UdpPeer* const peer = owner_.find_peer(*this, failure->to);
+        if (peer != nullptr && nobody_there) {
             peer->note_refusal(core_.now());
             owner_.on_refused(*peer, failure->reporter);
         }
@@ -276,12 +276,11 @@ void UdpPort::recover(std::size_t& index, net::IoError error, int& refusals) {
     if (may_be_of_another && ++refusals < max_refusals) return;
     refusals = 0;
     counters_.send_errors.add();
-    const Part& part = parts_[index++];
-    if (part.peer != nullptr) {
+    if (const Part& part = parts_[index++]; part.peer != nullptr) {
         part.peer->counters.frames_not_sent.add(part.frames);
         part.peer->queue.pop(part.until);
     }
-    owner_.on_send_error(error, part.peer);
+    owner_.on_send_error(error, nullptr);
 }
 
 void UdpPort::block() {

@@ -91,7 +91,8 @@ public:
     virtual void on_confirmed(UdpPeer&) {}
     // Called when `reporter` has reported that nobody listens at the peer's address.
     virtual void on_refused(UdpPeer&, const net::Address& /*reporter*/) {}
-    // Called when the kernel or the network has rejected a datagram. `peer` is null if it was for nobody that is known.
+    // Called when the kernel has rejected a datagram, or the network an earlier one. `peer`: for whom the earlier one
+    // was, if that is known.
     virtual void on_send_error(net::IoError error, const UdpPeer* peer) = 0;
 
     net::BindErrors bind_errors{net::Transport::udp};

@@ -103,8 +103,7 @@ UdpPeer* UdpBroadcast::peer_of(UdpPort& port, const net::Datagram& datagram) {
 }
 
 void UdpBroadcast::on_send_error(net::IoError error, const UdpPeer* peer) {
-    const bool is_of_one = error == net::IoError::refused || (peer != nullptr && peer != &everybody_);
-    if (is_of_one) return;
+    if (error == net::IoError::refused || peer != nullptr) return;  // it concerns one peer
     if (std::exchange(reported_unreachable_, true)) return;
     core_.events.notice(info.id, fmt::format("{}: no network reaches {} now; sending continues", info.endpoint.label(),
                                              everybody_.address.text()));

@@ -87,10 +87,14 @@ TEST(Neighbours, AnyUserMayWatch) {
 
 TEST(Neighbours, TheInterfaceThatLeadsToAHost) {
     const auto loopback = index_of_zone("lo");
-    EXPECT_EQ(interface_to(*Address::parse("127.0.0.1", 14550), 0), loopback);
-    EXPECT_EQ(interface_to(*Address::parse("127.0.0.1", 0), loopback), loopback);
-    EXPECT_EQ(interface_to(*Address::parse("::1", 0), 0), loopback);
-    EXPECT_EQ(interface_to(*Address::parse("127.0.0.1", 0), 1u << 30), 0u) << "no such interface";
+    const auto v4 = *Address::parse("127.0.0.1", 14550), v6 = *Address::parse("::1", 0), any = *Address::parse("::", 0);
+    EXPECT_EQ(interface_to(v4, any, 0), loopback);
+    EXPECT_EQ(interface_to(v4, v4, loopback), loopback);
+    EXPECT_EQ(interface_to(*Address::parse("::ffff:127.0.0.1", 0), any, 0), loopback);
+    EXPECT_EQ(interface_to(v6, v6, 0), loopback);
+    EXPECT_EQ(interface_to(v4, any, 1u << 30), 0u) << "no such interface";
+    EXPECT_EQ(interface_to(v4, *Address::parse("192.0.2.1", 0), 0), 0u) << "not an address of this machine";
+    EXPECT_EQ(interface_to(Address::parse("fe80::1", 0)->with_scope(7), any, 0), 7u);
 }
 
 }  // namespace
