@@ -16,6 +16,8 @@
 namespace mavloom::net {
 
 static constexpr std::size_t buffer_bytes = 16384;  // the kernel writes less at once
+static constexpr int queue_bytes = 4 << 20;         // for some thousand announcements
+static constexpr int reads_at_once = 256;
 // NUD_VALID of the kernel.
 static constexpr int valid = NUD_PERMANENT | NUD_NOARP | NUD_REACHABLE | NUD_PROBE | NUD_STALE | NUD_DELAY;
 
@@ -27,18 +29,23 @@ SetupResult<NeighbourWatch> NeighbourWatch::open() {
     local.nl_groups = RTMGRP_NEIGH;
     if (!watch.fd_ || ::bind(watch.fd(), reinterpret_cast<const sockaddr*>(&local), sizeof local) != 0)
         return system_error("cannot watch the table of neighbours", errno);
+    if (::setsockopt(watch.fd(), SOL_SOCKET, SO_RCVBUFFORCE, &queue_bytes, sizeof queue_bytes) != 0)
+        ::setsockopt(watch.fd(), SOL_SOCKET, SO_RCVBUF, &queue_bytes, sizeof queue_bytes);
     watch.buffer_.resize(buffer_bytes);
     return watch;
 }
 
 std::span<const NeighbourWatch::Change> NeighbourWatch::read() {
     changes_.clear();
-    sockaddr_nl from{};
-    socklen_t length = sizeof from;
-    const ssize_t size = ::recvfrom(fd(), buffer_.data(), buffer_.size(), 0, reinterpret_cast<sockaddr*>(&from),
-                                    &length);
-    const bool is_of_kernel = from.nl_pid == 0;
-    if (size > 0 && is_of_kernel) parse(ByteView(buffer_).first(static_cast<std::size_t>(size)), changes_);
+    for (int i = 0; i < reads_at_once; ++i) {
+        sockaddr_nl from{};
+        socklen_t length = sizeof from;
+        const ssize_t size = ::recvfrom(fd(), buffer_.data(), buffer_.size(), 0, reinterpret_cast<sockaddr*>(&from),
+                                        &length);
+        if (size < 0) break;
+        const bool is_of_kernel = from.nl_pid == 0;
+        if (is_of_kernel) parse(ByteView(buffer_).first(static_cast<std::size_t>(size)), changes_);
+    }
     return changes_;
 }
 

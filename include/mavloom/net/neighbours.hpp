@@ -29,8 +29,8 @@ public:
 
     [[nodiscard]] int fd() const noexcept { return fd_.get(); }
     [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(fd_); }
-    // Reads one announcement and returns the changes that it contains, often none. Valid until the next call. If the
-    // kernel's buffer was full, some changes are missing.
+    // Reads the announcements that wait, up to 256, and returns the changes that they contain, often none. Valid until
+    // the next call. If the kernel's buffer was full, some changes are missing.
     [[nodiscard]] std::span<const Change> read();
 
     // Adds the changes that the kernel's datagram announces. Public for the tests.
