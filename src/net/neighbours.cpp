@@ -158,14 +158,22 @@ void NeighbourWatch::parse(ByteView datagram, std::vector<Change>& changes) {
     }
 }
 
-std::uint32_t interface_to(const Address& host, const Address& from, std::uint32_t bound) noexcept {
-    if (host.scope() != 0) return host.scope();
+static std::uint32_t ask(const RouteRequest& request) noexcept {
     const Fd fd(::socket(AF_NETLINK, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, NETLINK_ROUTE));
-    const RouteRequest request(host.unmapped(), from.unmapped(), bound);
     if (!fd || ::send(fd.get(), request.bytes().data(), request.bytes().size(), 0) < 0) return 0;
     std::array<std::uint8_t, 4096> answer{};  // the kernel has answered when send returns
     const ssize_t size = ::recv(fd.get(), answer.data(), answer.size(), 0);
     return size <= 0 ? 0 : interface_of_route(ByteView(answer).first(static_cast<std::size_t>(size)));
+}
+
+std::uint32_t interface_to(const Address& host, const Address& from, std::uint32_t bound) noexcept {
+    if (host.scope() != 0) return host.scope();
+    const Address to = host.unmapped();
+    // By IPv6, the answer for a source need not be the interface to which it is bound.
+    if (bound != 0) return ask({to, Address(), bound});
+    const std::uint32_t by_source = ask({to, from.unmapped(), 0});
+    // The kernel knows no route from a broadcast address, but sends from a socket that is bound to one.
+    return by_source != 0 ? by_source : ask({to, Address(), 0});
 }
 
 // The kernel keeps the datagram while it looks for the host, and charges it to this socket alone.

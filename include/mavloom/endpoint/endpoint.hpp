@@ -34,7 +34,7 @@ using dialect::RateTerm;
 using route::GroupMode;
 
 struct EndpointOptions {
-    static constexpr std::uint64_t max_queue_bytes = std::uint64_t{1} << 30;
+    static constexpr std::uint64_t max_queue_bytes = std::uint64_t{1} << 30;  // offsets in queues have 32 bits
 
     std::string name;  // empty: the URL without its query
     std::string group;
