@@ -61,6 +61,7 @@ SetupResult<void> check_supported(const Endpoint& endpoint, RoutingOptions routi
     const bool is_one_link = cast == Cast::group || (cast == Cast::broadcast && o.fixed);
     if (is_one_link && o.max_peers != EndpointOptions{}.max_peers)
         return refused(endpoint, "all senders that are heard here share one link, so max_peers= has no effect");
+    if (o.queue_bytes > EndpointOptions::max_queue_bytes) return refused(endpoint, "queue_bytes= goes up to 1 GiB");
     return {};
 }
 

@@ -59,7 +59,7 @@ std::optional<T> begin_of(ByteView bytes) noexcept {
     return value;
 }
 
-// The bytes behind a part of this length. The next part begins at a multiple of 4 bytes.
+// Skips a part of this length, and the padding to the next multiple of 4 bytes.
 ByteView behind(ByteView bytes, std::size_t length) noexcept {
     return bytes.subspan(std::min(bytes.size(), NLMSG_ALIGN(length)));
 }
@@ -79,7 +79,7 @@ std::optional<Address> address_of(const ndmsg& about, ByteView bytes) noexcept {
     return Address::from_sockaddr(reinterpret_cast<const sockaddr*>(&v6), sizeof v6);
 }
 
-// The payload of the first attribute of this type; empty if there is none.
+// Returns the payload of the first attribute of this type, or an empty view.
 ByteView attribute_of(ByteView attributes, std::uint16_t type) noexcept {
     while (const auto header = begin_of<rtattr>(attributes)) {
         if (header->rta_len < sizeof(rtattr) || header->rta_len > attributes.size()) break;
@@ -98,7 +98,7 @@ std::optional<NeighbourWatch::Change> change_of(ByteView body) noexcept {
                                   (about->ndm_state & valid) != 0};
 }
 
-// The address without family and port, as the kernel writes it. A view into `address`.
+// Views the bytes of the IP address, in network order.
 ByteView bytes_of(const Address& address) noexcept {
     const auto* const v4 = &reinterpret_cast<const sockaddr_in*>(address.data())->sin_addr;
     const auto* const v6 = &reinterpret_cast<const sockaddr_in6*>(address.data())->sin6_addr;
@@ -172,11 +172,11 @@ std::uint32_t interface_to(const Address& host, const Address& from, std::uint32
     // By IPv6, the answer for a source need not be the interface to which it is bound.
     if (bound != 0) return ask({to, Address(), bound});
     const std::uint32_t by_source = ask({to, from.unmapped(), 0});
-    // The kernel knows no route from a broadcast address, but sends from a socket that is bound to one.
+    // A socket may be bound to a broadcast address. The kernel then sends from another one, so it knows no such route.
     return by_source != 0 ? by_source : ask({to, Address(), 0});
 }
 
-// The kernel keeps the datagram while it looks for the host, and charges it to this socket alone.
+// While the kernel looks for the host, the datagram takes room only in the send buffer of this socket.
 void look_for(const Address& host, std::uint32_t interface) noexcept {
     static constexpr std::uint16_t discard = 9;
     const Address to = host.unmapped().with_port(discard);

@@ -479,7 +479,7 @@ def test_stations_that_left_the_network_do_not_delay_the_others(machines, spawn_
             for _ in range(count):
                 sent.append(routers.attitude())
                 vehicle.send(sent[-1])
-                time.sleep(0.005)  # a rate
+                time.sleep(0.005)  # 200 frames a second; no verdict depends on it
 
         def counts(name):
             return [router.link_of(station)[name] for station in leaving]

@@ -46,6 +46,13 @@ TEST(LinksOptions, NothingIsSilentlyIgnored) {
     }
 }
 
+TEST(LinksOptions, AQueueHasNoMoreThanOneGibibyte) {
+    Node node;
+    auto endpoint = endpoint_of("udpin://127.0.0.1:0");
+    endpoint.options.queue_bytes = 2'000'000'000;
+    EXPECT_THAT(node.links->add(endpoint).error().text, HasSubstr("queue_bytes= goes up to 1 GiB"));
+}
+
 TEST(LinksOptions, WhatIsNoDestinationIsRefusedWithTheSpellingToType) {
     Node node;
     endpoint::Endpoint endpoint;
